@@ -15,6 +15,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "media/clip.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/input_kinds.hpp"
@@ -89,13 +90,13 @@ constexpr int kDeflateLevel = 1, kZlibLevel = 2;
 // Larger pictures are compressed row by row, which takes several times as long, and next to no memory.
 constexpr std::uint64_t kMostAtOnce = 64 << 20;
 
-// What codes stand for: in cICP, which this libpng has no function for, and in older chunks or a profile.
 // What cICP names it by, whose primaries go before those of other chunks.
 std::optional<std::uint8_t> named_transfer(const Picture& picture) {
   const bool are_named = picture.shape.channels == 1 || coding_point(picture.primaries) != kUnnamedPrimaries;
   return picture.transfer && are_named ? coding_point(*picture.transfer) : std::nullopt;
 }
 
+// What codes stand for: in cICP, which this libpng has no function for, and in older chunks or a profile.
 void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   if (picture.pixel_aspect != Rational{1, 1}) {
     // Pixels for the same length, of no unit: the wider a pixel, the fewer.
@@ -234,12 +235,8 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
-  const bool has_alpha =
+  const bool is_clear =
       (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(read.png, read.info, PNG_INFO_tRNS) != 0;
-  if (use == PngUse::still && has_alpha) {
-    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-                            is_colour ? 4 : 2));
-  }
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
                     is_colour && !is_indexed ? 3u : 1u};
   if (check_size) check_size(shape.width, shape.height);
@@ -247,7 +244,9 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
   if (shape.pixel_count() > kMostPixels)
     throw InputError(format("{} cannot be read: it has {} x {} pixels, more than {}", name, shape.width,
                             shape.height, kMostPixels));
-  if (has_alpha) png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
+  const bool has_alpha = is_clear && use == PngUse::mask;
+  // Of a tRNS one code is transparent.
+  has_alpha ? png_set_tRNS_to_alpha(read.png) : png_set_strip_alpha(read.png);
   is_indexed ? png_set_packing(read.png) : png_set_expand_gray_1_2_4_to_8(read.png);
   if (bits == 16) png_set_swap(read.png);  // PNG has the high byte first
   const int passes = png_set_interlace_handling(read.png);
@@ -271,7 +270,9 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
   int compression = 0;
   png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size);
   const auto* const bytes = reinterpret_cast<const std::byte*>(profile);
-  return {.picture = std::move(picture), .profile = {bytes, bytes + size}};
+  return {.picture = std::move(picture),
+          .profile = {bytes, bytes + size},
+          .left_out = is_clear && !has_alpha ? kTransparency : ""};
 }
 
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
@@ -355,7 +356,8 @@ void write_png(OutputFile& file, const Picture& picture, const std::string& text
 
 constinit const inputs::InputKind inputs::kPng{
     .name = "PNG", .starts = {"\x89PNG\r\n\x1a\n"}, .extensions = " .png ",
-    .said = {"none", "none", "as stored, white 255, or 65535 with a note", "EXIF", "refused", "one picture"},
+    .said = {"none", "none", "as stored, white 255, or 65535 with a note", "EXIF", "left out",
+             "one picture"},
     .text = read_text,
     .written = {{.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png}}};
 

@@ -49,10 +49,11 @@ struct NamedPrimaries {
 struct ExrPicture {
   Picture light;
   NamedPrimaries primaries;
+  std::string left_out;  // channels beside R, G and B or one of grey (media/clip.hpp)
   double pixel_aspect = 1;
 };
-// Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
-// or other pixels than its picture.
+// Light in light32, and what its file says of it. Throws InputError where it has none of these channels, or other
+// pixels than its picture.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& file);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,
                                                        const char* keyword);
