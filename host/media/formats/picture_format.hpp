@@ -49,6 +49,7 @@ struct WrittenFormat {
   bool holds_double = false;                   // in 64
   bool is_lossy = false;                       // codes
   bool is_for_eyes = false;                    // shown by viewers that take pixels for square ones
+  bool is_silent = false;                      // has no place for what values mean
   std::uint32_t only_channels = 0;             // 0: any
   // The text is empty where its kind has no place for one. Throws OutputError.
   void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes) = nullptr;

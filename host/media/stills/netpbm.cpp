@@ -299,14 +299,14 @@ constinit const inputs::InputKind inputs::kNetpbm{
     .said = {"none", "none", "as stored, white is its maximum", "none", "left out",
              "one behind the other"},
     .behind_start = " \t\r\n", .read = read_codes, .places = netpbm_starts, .text = netpbm_comment,
-    .written = {{.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
-                {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
-                {.also = ".pnm", .code_bits = 16, .write = write_netpbm}}};
+    .written = {{.extension = ".ppm", .code_bits = 16, .is_silent = true, .only_channels = 3, .write = write_netpbm},
+                {.extension = ".pgm", .code_bits = 16, .is_silent = true, .only_channels = 1, .write = write_netpbm},
+                {.also = ".pnm", .code_bits = 16, .is_silent = true, .write = write_netpbm}}};
 
 constinit const inputs::InputKind inputs::kPfm{
     .name = "PFM", .starts = {"PF", "Pf"}, .extensions = " .pfm ",
     .said = {"none", "none", "as of OpenEXR", "none", "none", "one picture"},
     .behind_start = " \t\r\n", .has_tags = true, .read = read_pfm,
-    .written = {{.extension = ".pfm", .holds_light = true, .write = write_netpbm}}};
+    .written = {{.extension = ".pfm", .holds_light = true, .is_silent = true, .write = write_netpbm}}};
 
 }  // namespace nutik

@@ -111,6 +111,11 @@ bool is_lossy_name(const std::filesystem::path& path) {
   return kind != nullptr && kind->is_lossy;
 }
 
+bool is_silent_name(const std::filesystem::path& path) {
+  const WrittenFormat* kind = find_format(path);
+  return kind != nullptr && kind->is_silent;
+}
+
 bool has_text_by_name(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
   return std::ranges::any_of(inputs::kWritten, [&](const inputs::InputKind* kind) {
