@@ -11,6 +11,14 @@
 
 namespace nutik {
 
+std::string left_out_note(std::string_view channels) {
+  return format("the file's {} {} left out", channels, channels.starts_with("channels ") ? "are" : "is");
+}
+
+void refuse_left_out(const std::string& name, std::string_view channels) {
+  if (!channels.empty()) throw InputError(format("{} has {} beside its codes; save it without", name, channels));
+}
+
 void refuse_yuv_options(const ClipOptions& options) {
   if (!options.matrix && !options.range && !options.chroma_at) return;
   throw UsageError(

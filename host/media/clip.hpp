@@ -66,6 +66,7 @@ struct ClipInfo {
   // Samples between the pictures of a capture that is read as a clip; they are read like pictures. Times, and what a
   // part counts, are those of the pictures.
   std::optional<Shared<MadeSamples>> made = std::nullopt;
+  std::string left_out = {};  // of its first still, as left_out_note() takes it; empty: nothing
 
   [[nodiscard]] std::uint64_t picture_count() const { return made ? (*made)->after.size() : sample_count; }
 };
@@ -218,6 +219,12 @@ struct StoredCodes {
   std::string unread_transfer = {}, unread_primaries = {};
   std::optional<Rational> pixel_aspect = std::nullopt;
 };
+
+// Channels beside grey or colour are left out of clips, with a note: `transparency`, or `channels A and Z`.
+inline constexpr const char* kTransparency = "transparency";
+[[nodiscard]] std::string left_out_note(std::string_view channels);
+// Throws InputError if there are any in a picture whose codes are to count as they stand.
+void refuse_left_out(const std::string& name, std::string_view channels);
 
 // Throws UsageError where something is stated that is said of YUV only.
 void refuse_yuv_options(const ClipOptions& options);

@@ -169,11 +169,11 @@ constinit const InputKind inputs::kVideo{
     .name = "video", .otherwise = "what FFmpeg takes it for",
     .said = {"its pictures' times; filming rates of Android, Samsung and Sony", "none",
              "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
-             "display matrix, by quarter turns", "left out, with a note", "as shown"},
+             "display matrix, by quarter turns", "left out", "as shown"},
     .open = open_video};
 constinit const InputKind inputs::kRawVideo{
     .name = "raw video", .otherwise = "your description",
-    .said = {"Photron's header beside it", "that header", "as of a video", "none", "left out, with a note",
+    .said = {"Photron's header beside it", "that header", "as of a video", "none", "left out",
              "as stored"},
     .open = open_video, .describe = add_photron_header};
 constinit const InputKind inputs::kSequence{

@@ -86,6 +86,40 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   }
 }
 
+// What would be read as something else is said, with the picture that it is of.
+TEST_F(Colour, ThatAPictureDoesNotNameIsNoted) {
+  scratch_.write("still.ppm", netpbm_file(random_stills({16, 16, 3}, 255, 1, 1)[0], false));
+  const auto told = [&](const std::string& words) {
+    const auto result = make(over(Words("--start 0f --exposure 1f -f 1 still.ppm " + words)));
+    return result.out + result.err;
+  };
+  for (const auto& [words, unnamed] : std::vector<std::pair<std::string, std::string>>{
+           {"a.pfm --primaries p3", "a.pfm does not name the primaries p3: state that when it is read"},
+           {"a.npy --primaries ap0", "a.npy does not name the primaries ap0: state"},
+           {"a.ppm --depth 16", "a.ppm does not name the transfer function srgb: state"},
+           {"a.ppm --depth 8 --out-transfer linear", "a.ppm does not name the transfer function linear: state"},
+           {"a.ppm --depth 8 --out-transfer source --transfer pq --primaries bt2020",
+            "a.ppm does not name the transfer function pq and the primaries bt2020: state"}})
+    expect_says(told(words), unnamed);
+  for (const char* words :
+       {"a.pfm", "a.ppm --depth 8", "a.ppm --depth 16 --out-transfer linear", "a.exr --primaries p3",
+        "a.ppm --depth 8 --primaries p3", "a.tif --depth float --primaries p3"})
+    EXPECT_EQ(told(words).find("does not name"), std::string::npos) << words;
+}
+
+// Codes under what is clear are whatever a program left there.
+TEST_F(Colour, OfAPictureThatIsComparedIsNotTransparent) {
+  scratch_.write("still.ppm", netpbm_file(random_stills({16, 16, 1}, 255, 1, 1)[0], false));
+  TiffOptions options{8};
+  options.extra = 1;
+  scratch_.write("clear.tif", tiff_file(random_stills({16, 16, 4}, 255, 1, 1), options));
+  expect_refused("mask -f 1 --threshold clear.tif 100 still.ppm mask.png", 3,
+                 "clear.tif has transparency beside its codes; save it without");
+  scratch_.write("f.fn", "M0 [0:1], [1000000:1]\n");
+  expect_refused("-f 1 -k f.fn -m clear.tif still.ppm x.png", 3,
+                 "clear.tif has transparency beside its codes; save it without");
+}
+
 // HLG's and PQ's codes go on behind white. What codes to be seen cut off is counted and said, with what keeps it.
 TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   write_scene();

@@ -11,7 +11,7 @@ namespace {
 constexpr Primaries kAll[] = {Primaries::bt709,        Primaries::bt2020,       Primaries::p3,       Primaries::sgamut3,
                               Primaries::sgamut3_cine, Primaries::vgamut,       Primaries::cinema_gamut,
                               Primaries::arri_wg3,     Primaries::arri_wg4,     Primaries::dgamut,
-                              Primaries::apple_wide_gamut};
+                              Primaries::apple_wide_gamut, Primaries::adobe_rgb};
 
 // A colour has one XYZ, in whichever primaries its light is told.
 TEST(Primaries, MatricesKeepColours) {
@@ -36,6 +36,22 @@ TEST(Primaries, OfAp1HaveTheirWhiteAdapted) {
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(to_bt709(Primaries::ap1)[i][j], printed[i][j], 5.1e-6);
   }
   EXPECT_EQ(parse_primaries("ap1"), Primaries::ap1);
+}
+
+// By the chromaticities of the Academy's ST 2065-1 and SMPTE's RP 431-2, in numpy.
+TEST(Primaries, OfAp0AndCinemasHaveTheirWhiteAdapted) {
+  const ColourMatrix ap0{{{2.521686186743882, -1.134130988239719, -0.387555198504164},
+                          {-0.276479914229922, 1.372719087668256, -0.096239173438334},
+                          {-0.015378064966034, -0.152975335867399, 1.168353400833433}}};
+  const ColourMatrix cinemas{{{1.157516406199759, -0.154962378073858, -0.002554028125901},
+                              {-0.041500071530686, 1.045567923079699, -0.004067851549013},
+                              {-0.018050038956254, -0.078578272653029, 1.096628311609283}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(to_bt709(Primaries::ap0)[i][j], ap0[i][j], 1e-14);
+      EXPECT_NEAR(to_bt709(Primaries::dci_p3)[i][j], cinemas[i][j], 1e-14);
+    }
+  }
 }
 
 // As ITU-R BT.2087 prints it.

@@ -32,7 +32,7 @@ TEST(ColourProfile, OfWhatIsWrittenHereIsBelieved) {
     for (const std::uint32_t channels : {1u, 3u}) {
       for (const bool is_deep : {false, true}) {
         if (is_deep && is_lossy_name(name)) continue;
-        for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
+        for (const Primaries primaries : all_primaries()) {
           for (const Transfer& transfer : transfers) {
             Picture picture = random_stills({16, 16, channels}, is_deep ? 65'535 : 255, 1, channels).front();
             picture.transfer = transfer;
@@ -118,6 +118,7 @@ std::string rgb_profile(const char* name, cmsToneCurve* curve, const cmsCIExyYTR
 
 constexpr cmsCIExyYTRIPLE kSrgb{{0.64, 0.33, 1}, {0.30, 0.60, 1}, {0.15, 0.06, 1}};
 constexpr cmsCIExyYTRIPLE kAdobe{{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 1}};
+constexpr cmsCIExyYTRIPLE kOther{{0.65, 0.32, 1}, {0.20, 0.70, 1}, {0.14, 0.05, 1}};
 
 // A JPEG of another program's: the profile in segments APP2 behind the first, as ICC.1 says.
 void write_jpeg_with(const std::filesystem::path& path, const std::string& profile,
@@ -160,14 +161,18 @@ TEST(ColourProfile, OfPrimariesThatAreNotKnownIsNamed) {
   const Scratch scratch;
   const Curve curve(cmsBuildGamma(nullptr, 563.0 / 256), &cmsFreeToneCurve);
   write_jpeg_with(scratch / "still.jpg", rgb_profile("Adobe RGB (1998)", curve.get(), kAdobe));
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "still.jpg")).at(Setting::primaries).line(),
+            "primaries adobe-rgb, from the ICC profile 'Adobe RGB (1998)'");
+  write_jpeg_with(scratch / "still.jpg", rgb_profile("Camera RGB", curve.get(), kOther));
   const auto clip = open_test_clip(scratch / "still.jpg");
   auto facts = facts_of(*clip);
   EXPECT_EQ(facts.at(Setting::transfer).origin, Origin::file);
   EXPECT_NEAR(std::stod(clip->info().format.transfer.text().substr(6)), 563.0 / 256, 1e-5);
   EXPECT_EQ(facts.at(Setting::primaries).line(),
-            "primaries bt709, assumed; the file names the ICC profile 'Adobe RGB (1998)'");
+            "primaries bt709, assumed; the file names the ICC profile 'Camera RGB'");
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  expect_says(clip->info().notes[0].text, "'Adobe RGB (1998)'");
+  expect_says(clip->info().notes[0].text, "'Camera RGB' says what the codes stand for, and its primaries are none");
+  expect_says(clip->info().notes[0].text, "magick IN -profile sRGB.icc OUT makes pictures of known ones; or state");
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::primaries});
   EXPECT_TRUE(open_test_clip(scratch / "still.jpg", {.primaries = Primaries::p3})->info().notes.empty());
 }

@@ -80,15 +80,22 @@ TEST(LightClip, OfPrimariesThatAreNotKnownIsNamed) {
   light.primaries = Primaries::bt2020;
   write_picture(scratch / "a.exr", light);
   std::string exr = read_file(scratch / "a.exr");
-  const std::size_t at = exr.rfind("chromaticities") + 15 + 4;
-  const float red = 0.7347F;  // ACES
-  std::memcpy(exr.data() + at, &red, sizeof red);
+  const std::size_t place = exr.rfind("chromaticities") + 15 + 4;
+  const float red = 0.69F;
+  std::memcpy(exr.data() + place, &red, sizeof red);
   scratch.write("b.exr", exr);
   const auto line = [&](const char* name) {
     return facts_of(*open_test_clip(scratch / name, {.white_light = kWhite})).at(Setting::primaries).line();
   };
   EXPECT_EQ(line("a.exr"), "primaries bt2020, from the file");
-  EXPECT_EQ(line("b.exr"), "primaries bt709, assumed; the file names other chromaticities");
+  const std::string at = "red at 0.69 0.292, green at 0.17 0.797, blue at 0.131 0.046, white at 0.3127 0.329";
+  EXPECT_EQ(line("b.exr"), "primaries bt709, assumed; the file names " + at);
+  const auto notes = open_test_clip(scratch / "b.exr", {.white_light = kWhite})->info().notes;
+  ASSERT_EQ(notes.size(), 1u);
+  expect_says(notes[0].text, "the file's primaries, " + at + ", are none that are known here");
+  EXPECT_EQ(notes[0].settings, std::vector{Setting::primaries});
+  const ClipOptions stated{.primaries = Primaries::p3, .white_light = kWhite};
+  EXPECT_TRUE(open_test_clip(scratch / "b.exr", stated)->info().notes.empty());
 }
 
 TEST(LightClip, DoublesAreWrittenToTheLastBit) {

@@ -219,7 +219,8 @@ TEST(OpenExr, OfOtherChannelsOrPixelsIsRefused) {
     }
     return message_of<InputError>([&] { open_test_clip(scratch / "a.exr"); });
   };
-  expect_says(refusal({"A", "B", "G", "R"}, {{0, 0}, {3, 3}}), "its channels are A, B, G, R; R, G and B, or one");
+  expect_says(refusal({"BY", "RY", "Y"}, {{0, 0}, {3, 3}}), "its channels are BY, RY and Y; R, G and B, or Y, or");
+  expect_says(refusal({"far.G", "far.R"}, {{0, 0}, {3, 3}}), "its channels are far.G and far.R; R, G and B, or Y, or");
   expect_says(refusal({"Y"}, {{0, 0}, {2, 3}}), "its pixels are not those of its picture");
   expect_says(refusal({"Y"}, {{0, 0}, {3, 3}}), "the largest value is 0.5");  // but for its white it is read
 }

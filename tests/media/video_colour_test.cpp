@@ -361,6 +361,7 @@ TEST(VideoColour, TellsWhichPrimariesCountAsOthers) {
   for (const auto& [named, line] :
        {std::pair("smpte170m", "primaries bt709, from the file; it names smpte170m"),
         {"bt709", "primaries bt709, from the file"},
+        {"smpte431", "primaries dci-p3, from the file"},
         {"smpte432", "primaries p3, from the file"}}) {
     test::make(scratch,
                "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 -c:v ffv1 -pix_fmt yuv420p -color_primaries " +

@@ -142,7 +142,8 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
         list(std::vector<std::uint32_t>(channels, static_cast<std::uint32_t>(options.bits)), 2);
     if (file.size() % 2 != 0) file.add(0, 1);
     file.set(link, static_cast<std::uint32_t>(file.size()));
-    const std::uint32_t entries = 11 + (options.max_sample_value != 0) + (options.orientation != 0);
+    const std::uint32_t entries =
+        11 + (options.max_sample_value != 0) + (options.orientation != 0) + (options.extra >= 0);
     file.add(entries, 2);
     const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
       file.add(tag, 2);
@@ -156,9 +157,10 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     };
     entry(256, kLong, 1, page.shape.width);
     entry(257, kLong, 1, page.shape.height);
-    entry(258, kShort, channels, alone(channels, static_cast<std::uint32_t>(options.bits), bit_list));
+    const auto bits = static_cast<std::uint32_t>(options.bits);
+    entry(258, kShort, channels, channels == 2 ? bits * 0x10001 : alone(channels, bits, bit_list));  // two fit in
     entry(259, kShort, 1, 1);  // not compressed
-    entry(262, kShort, 1, channels == 3 ? 2 : options.inverted ? 0 : 1);
+    entry(262, kShort, 1, channels >= 3 ? 2 : options.inverted ? 0 : 1);
     entry(273, kLong, planes, alone(planes, offsets[0], offset_list));
     if (options.orientation != 0) entry(274, kShort, 1, static_cast<std::uint32_t>(options.orientation));
     entry(277, kShort, 1, channels);
@@ -168,6 +170,7 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
       entry(281, kShort, 1, static_cast<std::uint32_t>(options.max_sample_value));
     }
     entry(284, kShort, 1, options.planar ? 2 : 1);
+    if (options.extra >= 0) entry(338, kShort, 1, static_cast<std::uint32_t>(options.extra));
     entry(339, kShort, 1, static_cast<std::uint32_t>(options.sample_format));
     link = file.size();
     file.add(0, 4);

@@ -32,6 +32,7 @@ struct TiffOptions {
   int max_sample_value = 0;  // 0: no such tag
   int sample_format = 1;     // 1 without sign, 2 signed, 3 floating point
   int orientation = 0;       // 0: no such tag
+  int extra = -1;            // what the last of the channels is, by ExtraSamples; -1: no such tag
 };
 [[nodiscard]] std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& options);
 

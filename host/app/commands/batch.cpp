@@ -244,7 +244,7 @@ class Batch {
     if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
     const FileWishes wishes = file_wishes(line.picture);
     tally_.wrote(exposed.figures.capture,
-                 written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
+                 written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes), output);
     if (!pictures_.push({number, output, std::move(exposed.picture),
                          recipe_text(line, tally_.precision(), tally_.error_bound(), map), wishes}))
       pictures_.finish();  // throws

@@ -92,7 +92,7 @@ int run_expose(const Options& stated) {
   const std::uint64_t samples = figures.timeline.sample_count();
   Answer answer{{{"picture", output.string()}}};
   if (maps.are_asked()) answer.json["bounds_map"] = maps.of(0).string();
-  tally.wrote(figures.capture, shape);
+  tally.wrote(figures.capture, shape, output);
   answer.json.update(shape_json(shape));
   answer.json.update(
       {{"samples", samples}, {"live_samples", figures.live_samples}, {"functions", functions_json(figures)}});

@@ -77,7 +77,7 @@ int run_series(const Options& options) {
   }
   const Shape shape =
       written_shape(names[0], session.format().shape, session.format().pixel_aspect, file_wishes(wishes));
-  tally.wrote(session.format(), shape);
+  tally.wrote(session.format(), shape, names[0]);
   answer.json.update(shape_json(shape));
   answer.json["functions"] = functions_json(*first);
   const std::string last = pictures.size() == 1 ? "" : " … " + pictures.back().path.filename().string();

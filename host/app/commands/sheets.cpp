@@ -105,7 +105,8 @@ class SheetJob {
     answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
                          counted(rows, "row"));
     if (options_.each) {
-      tally_.wrote(capture, written_shape(*options_.each, capture.shape, capture.pixel_aspect, file_wishes(codes_)));
+      tally_.wrote(capture, written_shape(*options_.each, capture.shape, capture.pixel_aspect, file_wishes(codes_)),
+                   *options_.each);
     }
     tally_.end(answer, session, options_.verbose);
     answer.tell_source(session);

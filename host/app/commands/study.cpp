@@ -383,7 +383,7 @@ int run_study(const Options& stated) {
   const FileWishes wishes = file_wishes(options.picture);
   write_picture(files.picture, exposed.picture, recipe, wishes);
   const Shape shape = written_shape(files.picture, exposed.picture.shape, exposed.picture.pixel_aspect, wishes);
-  tally.wrote(session.format(), shape);
+  tally.wrote(session.format(), shape, files.picture);
 
   Answer answer{{{"picture", files.picture.string()}}};
   answer.json.update(shape_json(shape));

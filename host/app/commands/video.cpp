@@ -114,7 +114,7 @@ int run_video(const Options& stated) {
   const auto [start_ns, end_ns] = frames.span();
   Answer answer{{{"video", name}, {"kind", output.kind()}}};
   if (maps.are_asked()) answer.json["bounds_maps"] = *options.picture.bounds;
-  tally.wrote(session.format(), shape);
+  tally.wrote(session.format(), shape, {});
   answer.json.update(shape_json(shape));
   answer.json.update({{"frames", frames.numbers.size()},
                       {"skipped", wanted - frames.numbers.size()},

@@ -9,6 +9,7 @@
 #include "capture/source_text.hpp"
 #include "features/captures/retiming.hpp"
 #include "features/schema/option.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "render/render_plan.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
@@ -167,7 +168,27 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
   return 0;
 }
 
+namespace {
+
+// What a reader has to be told, because it would take something else for granted; empty: nothing.
+std::string unnamed_note(const std::filesystem::path& picture, const CaptureFormat& capture,
+                         const OutputFormat& output) {
+  if (!is_silent_name(picture)) return {};
+  CodeMaking making = CodeMaking::of(capture, output);
+  if (!holds_codes(output.type)) making.transfer = Transfer::linear();
+  std::string left;
+  if (making.transfer != (output.type == ValueType::code8 ? Transfer::srgb() : Transfer::linear()))
+    left = "the transfer function " + making.transfer.text();
+  if (capture.shape.channels > 1 && making.primaries != making.transfer.usual_primaries().value_or(Primaries::bt709))
+    left += format("{}the primaries {}", left.empty() ? "" : " and ", to_text(making.primaries));
+  if (left.empty()) return {};
+  return format("{} does not name {}: state that when it is read", picture.string(), left);
+}
+
+}  // namespace
+
 void ExposureTally::add(const ExposedPicture& exposed) {
+  output_ = exposed.output;
   saturation_ += exposed.saturation;
   has_codes_ |= holds_codes(exposed.output.type);
   const Transfer& held = exposed.figures.capture.transfer;
@@ -183,7 +204,8 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   }
 }
 
-void ExposureTally::wrote(const CaptureFormat& capture, const Shape& written) {
+void ExposureTally::wrote(const CaptureFormat& capture, const Shape& written, const std::filesystem::path& picture) {
+  if (unnamed_.empty()) unnamed_ = unnamed_note(picture, capture, output_);
   squared_ = square_notes(capture, written);
   if (squared_.empty() || !worst_output_.maps_bounds) return;
   squared_.push_back(format("maps of bounds have the capture's {} x {} pixels, for which alone they hold",
@@ -214,6 +236,7 @@ Json uncertainty_json(const Uncertainty& uncertainty, const OutputFormat& output
 
 std::vector<std::string> ExposureTally::notes() const {
   std::vector<std::string> notes = squared_;
+  if (!unnamed_.empty()) notes.push_back(unnamed_);
   if (!brighter_than_white_) return notes;
   const double white = brighter_than_white_->reference_white();
   const std::string share = format("white is {:.3g} % of the light that {} reaches", 100 * white,

@@ -65,8 +65,8 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
 class ExposureTally {
  public:
   void add(const ExposedPicture& exposed);
-  // The size that its pictures were written in.
-  void wrote(const CaptureFormat& capture, const Shape& written);
+  // The size that its pictures were written in, and the name of the last one; empty: they are a film's.
+  void wrote(const CaptureFormat& capture, const Shape& written, const std::filesystem::path& picture);
 
   // The last one's arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
   [[nodiscard]] const std::string& precision() const { return precision_; }
@@ -81,7 +81,8 @@ class ExposureTally {
   [[nodiscard]] Json saturation_json() const;
   // That of the picture whose bounds are the largest.
   [[nodiscard]] Json uncertainty_json() const { return app::uncertainty_json(worst_, worst_output_); }
-  // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one.
+  // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one;
+  // what a picture's file does not name.
   [[nodiscard]] std::vector<std::string> notes() const;
 
   // Ends an answer with that and with what the exposures were made with; `rate` is put before the seconds.
@@ -93,9 +94,10 @@ class ExposureTally {
   bool has_codes_ = false;
   std::optional<Transfer> brighter_than_white_;  // what the capture may hold, if codes cut that off, or light keeps it
   std::vector<std::string> squared_;
+  std::string unnamed_;
   std::string precision_, renderer_, report_, error_bound_;
   Uncertainty worst_;
-  OutputFormat worst_output_;
+  OutputFormat worst_output_, output_;  // of the last one
 };
 
 // That pixels were made square, where the size that was written is not the capture's.

@@ -144,10 +144,11 @@ constexpr Option kRows[] = {
      "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::primaries>, parse_primaries>,
-     "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, "
-     "cinema-gamut, arri-wg3, arri-wg4, dgamut, apple-wide-gamut, ap1 (default: the curve's, of cameras' curves; "
-     "what the file says; else bt2020 if the matrix is, and bt709)",
-     "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut apple-wide-gamut ap1"}),
+     "the colours of red, green and blue: bt709, bt2020, p3, adobe-rgb, dci-p3, ap0, ap1, or a camera's: sgamut3, "
+     "sgamut3-cine, vgamut, cinema-gamut, arri-wg3, arri-wg4, dgamut, apple-wide-gamut (default: the curve's, of "
+     "cameras' curves; what the file says; else bt2020 if the matrix is, and bt709)",
+     "bt709 bt2020 p3 adobe-rgb dci-p3 ap0 ap1 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut "
+     "apple-wide-gamut"}),
     known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
      "how much wider than high a pixel is: 32:27 (default: what the file says, else 1:1)"}),

@@ -20,6 +20,7 @@ constexpr std::int64_t kEventUnitNs = 1000;
 // The light of each pixel of a picture, which has to be of the wanted size.
 std::vector<double> light_of_picture(const std::filesystem::path& path, const Shape& wanted) {
   const std::unique_ptr<Clip> clip = open_clip(path, {});
+  refuse_left_out(path.string(), clip->info().left_out);
   const CaptureFormat& picture = clip->info().format;
   const Shape& shape = picture.shape;
   if (shape.width != wanted.width || shape.height != wanted.height) {

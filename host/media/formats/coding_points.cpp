@@ -11,12 +11,10 @@ std::optional<std::uint8_t> coding_point(const Transfer& transfer) {
 }
 
 std::uint8_t coding_point(Primaries primaries) {
-  constexpr std::uint8_t kUnspecified = 2, kDisplayP3 = 12;
-  if (primaries == Primaries::p3) return kDisplayP3;  // with the white of screens, which cinemas have not
   for (std::uint8_t number = 1; number <= 12; ++number) {
     if (primaries_of_coding_point(number) == primaries) return number;
   }
-  return kUnspecified;
+  return kUnnamedPrimaries;
 }
 
 std::optional<Transfer> transfer_of_coding_point(unsigned number) {
@@ -42,7 +40,7 @@ std::optional<Primaries> primaries_of_coding_point(unsigned number) {
     case 6:  // NTSC
     case 7: return Primaries::bt709;
     case 9: return Primaries::bt2020;
-    case 11:  // cinemas
+    case 11: return Primaries::dci_p3;
     case 12: return Primaries::p3;
     default: return std::nullopt;
   }

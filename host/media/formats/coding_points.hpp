@@ -12,6 +12,7 @@ namespace nutik {
 // None where the standard has none for a function.
 [[nodiscard]] std::optional<std::uint8_t> coding_point(const Transfer& transfer);
 [[nodiscard]] std::uint8_t coding_point(Primaries primaries);
+inline constexpr std::uint8_t kUnnamedPrimaries = 2;
 
 // What is known here by a number, or is the same to an eye: NTSC's and PAL's primaries differ from BT.709's by less
 // than it notices. None for others, and for what is not said.

@@ -126,7 +126,7 @@ constexpr std::array kColorants{cmsSigRedColorantTag, cmsSigGreenColorantTag, cm
 std::optional<Primaries> primaries_of(cmsHPROFILE profile) {
   // White of a channel that is off by that much is off by 0.45 of a code of 8 bits in sRGB.
   constexpr double kAlike = 0.002;
-  for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
+  for (const Primaries primaries : all_primaries()) {
     Picture sample;
     sample.shape.channels = 3;
     sample.primaries = primaries;

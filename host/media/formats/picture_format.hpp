@@ -27,6 +27,7 @@ struct FilePicture {
   std::optional<std::pair<double, double>> density = {};
   std::vector<std::byte> profile = {};  // ICC; empty where there is none that can be read, or not all of it
   unsigned orientation = 1;             // as it lies, by EXIF's numbers, which are TIFF's
+  std::string left_out = {};            // channels beside these (media/clip.hpp)
 };
 
 // What a person asked of a file beside its values.
@@ -48,6 +49,7 @@ struct WrittenFormat {
   bool holds_double = false;                   // in 64
   bool is_lossy = false;                       // codes
   bool is_for_eyes = false;                    // shown by viewers that take pixels for square ones
+  bool is_silent = false;                      // has no place for what values mean
   std::uint32_t only_channels = 0;             // 0: any
   // The text is empty where its kind has no place for one. Throws OutputError.
   void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes) = nullptr;

@@ -24,6 +24,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 #include "capture/text.hpp"
 #include "media/stills/picture_text.hpp"
 #include "media/stills/stills.hpp"
@@ -206,21 +207,41 @@ bool is_layer(const Imf::Header& header, std::string_view channel) {
   return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
 }
 
-// The channels of a picture of light, in a raster's order. Throws where they are none.
-std::vector<std::string> channels_of(const Imf::Header& header) {
-  const Imf::ChannelList& channels = header.channels();
-  std::string all;
-  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-    if (is_layer(header, channel.name())) continue;
-    all += (all.empty() ? "" : ", ") + std::string(channel.name());
-  }
-  if (all == "B, G, R") return {"R", "G", "B"};
-  if (!all.empty() && all.find(',') == std::string::npos) return {all};
-  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + printable(names[i]);
+  return list + (names.size() > kMost ? format(" and {} more", names.size() - kMost) : "");
 }
 
-std::optional<Primaries> named_primaries(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
+// The channels of a picture of light, in a raster's order, and what is left out beside these. Throws where they are
+// none: Y has no colour beside RY and BY.
+std::pair<std::vector<std::string>, std::string> channels_of(const Imf::Header& header) {
+  const Imf::ChannelList& channels = header.channels();
+  std::vector<std::string> all, rest;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (!is_layer(header, channel.name())) all.emplace_back(channel.name());
+  }
+  const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+  std::vector<std::string> light = all;
+  std::erase(light, "A");
+  if (has("R") && has("G") && has("B")) {
+    light = {"R", "G", "B"};
+  } else if (has("Y") && !has("RY") && !has("BY")) {
+    light = {"Y"};
+  } else if (light.size() != 1) {
+    throw InputError(format("its channels are {}; R, G and B, or Y, or one of grey, are read: save it with these",
+                            listed(all)));
+  }
+  std::ranges::copy_if(all, std::back_inserter(rest),
+                       [&](const std::string& name) { return std::ranges::find(light, name) == light.end(); });
+  if (rest.empty()) return {light, ""};
+  return {light, (rest.size() == 1 ? "channel " : "channels ") + listed(rest)};
+}
+
+NamedPrimaries named_primaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return {};
   const Imf::Chromaticities& named = Imf::chromaticities(header);
   const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
   return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
@@ -261,18 +282,22 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   write_file(file, header, buffer);
 }
 
-std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points) {
+NamedPrimaries primaries_at(const std::array<std::array<double, 2>, 4>& points) {
   constexpr double kAgree = 5e-4;
-  for (int each = 0; each <= static_cast<int>(Primaries::ap1); ++each) {
-    const auto known = static_cast<Primaries>(each);
+  for (const Primaries known : all_primaries()) {
     double furthest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& [x, y] = chromaticities(known)[i];
       furthest = std::max({furthest, std::abs(x - points[i][0]), std::abs(y - points[i][1])});
     }
-    if (furthest < kAgree) return known;
+    if (furthest < kAgree) return {known, {}};
   }
-  return std::nullopt;
+  std::string at;
+  for (std::size_t i = 0; i < 4; ++i) {
+    constexpr const char* kNames[] = {"red", ", green", ", blue", ", white"};
+    at += format("{} at {:.6g} {:.6g}", kNames[i], points[i][0], points[i][1]);
+  }
+  return {std::nullopt, at};
 }
 
 ExrPicture read_exr(const std::filesystem::path& file) {
@@ -286,7 +311,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
     const Imath::Box2i window = header.dataWindow();
     if (window != header.displayWindow())
       throw InputError("its pixels are not those of its picture (data and display window)");
-    const std::vector<std::string> names = channels_of(header);
+    const auto [names, left_out] = channels_of(header);
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
                        height = std::int64_t{window.max.y} - window.min.y + 1;
     const Shape shape{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
@@ -298,9 +323,8 @@ ExrPicture read_exr(const std::filesystem::path& file) {
       throw InputError(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged", width, height,
                               mapped.bytes().size()));
     }
-    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), false,
+    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), left_out,
                     double{header.pixelAspectRatio()}};
-    read.names_others = Imf::hasChromaticities(header) && !read.primaries;
     constexpr std::size_t kValue = sizeof(float);
     const std::size_t pixel = kValue * names.size(), row = pixel * shape.width;
     // OpenEXR counts from its own corner, and adds what is before it.

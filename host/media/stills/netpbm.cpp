@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "media/clip.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/stills/picture_text.hpp"
 #include "system/interruption.hpp"
@@ -29,7 +30,7 @@ class NetpbmReader {
   std::size_t pass() {
     const auto [shape, maximum, raw] = read_front();
     const std::uint64_t value_size = maximum > 255 ? 2 : 1;
-    if (raw) return at_ + shape.value_count() * value_size;
+    if (raw) return at_ + stored_count(shape) * value_size;
     for (std::uint64_t i = 0; i < shape.value_count(); ++i) number("value", 65'535);
     return at_;
   }
@@ -41,6 +42,7 @@ class NetpbmReader {
     for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
       if (i % 65'536 == 0) check_interruption();
       const std::uint32_t code = raw ? raw_value(value_size) : number("value", 65'535);
+      if (has_alpha_ && (i + 1) % shape.channels == 0) at_ += value_size;
       if (code > maximum) fail(format("value {} is above its maximum of {}", code, maximum));
       if (maximum > 255) {
         picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(code);
@@ -50,6 +52,9 @@ class NetpbmReader {
     }
     return picture;
   }
+
+  // Whether the picture that was read has transparency, which is left out.
+  [[nodiscard]] bool has_alpha() const { return has_alpha_; }
 
   // PF or Pf, width, height, a number whose sign is that of machines with their low bytes first if it is below 0; then
   // rows from the bottom up.
@@ -116,7 +121,7 @@ class NetpbmReader {
     const bool raw = kind == '5' || kind == '6' || kind == '7';
     const std::uint64_t value_size = maximum > 255 ? 2 : 1;
     // Before anything is allocated: a raw picture's bytes are all there, a plain one has two a value.
-    const std::uint64_t needed = shape.value_count() * (raw ? value_size : 2);
+    const std::uint64_t needed = stored_count(shape) * (raw ? value_size : 2);
     if (raw) ++at_;  // the one white-space character before the raster
     if (at_ > text_.size() || text_.size() - at_ + 1 < needed) {
       fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height,
@@ -125,7 +130,11 @@ class NetpbmReader {
     return {shape, maximum, raw};
   }
 
-  // Lines in any order, of which TUPLTYPE says no more than DEPTH does, up to ENDHDR.
+  [[nodiscard]] std::uint64_t stored_count(const Shape& shape) const {
+    return shape.value_count() + (has_alpha_ ? shape.pixel_count() : 0);
+  }
+
+  // Lines in any order up to ENDHDR. TUPLTYPE says no more than DEPTH does, except of transparency: four may be CMYK.
   void read_pam_lines(Shape& shape, std::uint32_t& maximum) {
     shape.channels = 0;
     for (std::string_view word; word != "ENDHDR";) {
@@ -142,11 +151,17 @@ class NetpbmReader {
       } else if (word == "MAXVAL") {
         maximum = number("maximum", 65'535);
       } else if (word != "ENDHDR") {
+        const std::string_view line = text_.substr(at_, text_.find_first_of("\r\n", at_) - at_);
+        if (word == "TUPLTYPE") has_alpha_ = line.ends_with("_ALPHA");
         at_ = std::min(text_.find('\n', at_), text_.size());
       }
     }
+    has_alpha_ &= shape.channels == 2 || shape.channels == 4;
+    if (has_alpha_) --shape.channels;
     if (shape.channels == 1 || shape.channels == 3) return;
-    fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not", shape.channels));
+    fail(format("it has {} channels; grey (1) and colour (3) are read, and beside them transparency (TUPLTYPE "
+                "GRAYSCALE_ALPHA or RGB_ALPHA): save it as one of these",
+                shape.channels));
   }
 
   [[noreturn]] void fail(const std::string& why) const {
@@ -193,12 +208,16 @@ class NetpbmReader {
   std::string_view text_;
   const std::string& name_;
   std::size_t at_ = 0;
+  bool has_alpha_ = false;
 };
 
 }  // namespace
 
 Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
-  return NetpbmReader(file, name).read();
+  NetpbmReader reader(file, name);
+  Picture picture = reader.read();
+  if (reader.has_alpha()) refuse_left_out(name, kTransparency);
+  return picture;
 }
 
 std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name) {
@@ -243,9 +262,10 @@ std::string netpbm_text(const Picture& picture, const std::string& comment) {
 namespace {
 
 FilePicture read_codes(std::span<const std::byte> file, const std::string& name, std::size_t begin) {
-  Picture picture = read_netpbm(file.subspan(std::min(begin, file.size())), name);
+  NetpbmReader reader(file.subspan(std::min(begin, file.size())), name);
+  Picture picture = reader.read();
   const std::uint32_t maximum = picture.white_code;
-  return {std::move(picture), maximum};
+  return {.picture = std::move(picture), .maximum = maximum, .left_out = reader.has_alpha() ? kTransparency : ""};
 }
 
 // Light as it stands, whatever its scale.
@@ -276,16 +296,17 @@ void write_netpbm(OutputFile& file, const Picture& picture, const std::string& t
 
 constinit const inputs::InputKind inputs::kNetpbm{
     .name = "Netpbm", .starts = {"P2", "P3", "P5", "P6", "P7"}, .extensions = " .pgm .ppm .pnm .pam ",
-    .said = {"none", "none", "as stored, white is its maximum", "none", "none", "one behind the other"},
+    .said = {"none", "none", "as stored, white is its maximum", "none", "left out",
+             "one behind the other"},
     .behind_start = " \t\r\n", .read = read_codes, .places = netpbm_starts, .text = netpbm_comment,
-    .written = {{.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
-                {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
-                {.also = ".pnm", .code_bits = 16, .write = write_netpbm}}};
+    .written = {{.extension = ".ppm", .code_bits = 16, .is_silent = true, .only_channels = 3, .write = write_netpbm},
+                {.extension = ".pgm", .code_bits = 16, .is_silent = true, .only_channels = 1, .write = write_netpbm},
+                {.also = ".pnm", .code_bits = 16, .is_silent = true, .write = write_netpbm}}};
 
 constinit const inputs::InputKind inputs::kPfm{
     .name = "PFM", .starts = {"PF", "Pf"}, .extensions = " .pfm ",
     .said = {"none", "none", "as of OpenEXR", "none", "none", "one picture"},
     .behind_start = " \t\r\n", .has_tags = true, .read = read_pfm,
-    .written = {{.extension = ".pfm", .holds_light = true, .write = write_netpbm}}};
+    .written = {{.extension = ".pfm", .holds_light = true, .is_silent = true, .write = write_netpbm}}};
 
 }  // namespace nutik

@@ -1,4 +1,4 @@
-// Netpbm pictures: PGM and PPM, plain (P2, P3) and raw (P5, P6), PAM without transparency (P7), and PFM.
+// Netpbm pictures: PGM and PPM, plain (P2, P3) and raw (P5, P6), PAM (P7), and PFM.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace nutik {
 
 // Reads a PGM, PPM or PAM. Codes are taken as they stand and never scaled; the picture's white code is the
-// file's maxval. Throws InputError naming `name` where the file is damaged, cut off, or of another kind.
+// file's maxval. Throws InputError naming `name` where the file is damaged, cut off, of another kind, or transparent.
 [[nodiscard]] Picture read_netpbm(std::span<const std::byte> file, const std::string& name);
 
 // Where the pictures begin of a file that holds one behind the other; the first at 0, whatever it is.

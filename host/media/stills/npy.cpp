@@ -160,7 +160,7 @@ constinit const inputs::InputKind inputs::kNumpy{
     .said = {"none", "none", "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
              "its first axis of four, or of three whose last is not 3"},
     .has_tags = true, .read = read_npy, .places = numbers_of_pictures,
-    .written = {{.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
+    .written = {{.extension = ".npy", .holds_light = true, .holds_double = true, .is_silent = true, .write = write_npy,
                  .write_layers = write_npy_layers}}};
 
 }  // namespace nutik

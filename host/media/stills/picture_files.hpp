@@ -17,9 +17,9 @@ void check_stated_size(const std::string& name, std::uint64_t width, std::uint64
 
 enum class PngUse { mask, still };
 
-// A mask has 8 bits, code for code, no palette, and alpha where that is opaque everywhere; a still has no alpha. Throws
-// InputError naming `name` where it is anything else, or damaged. `check_size` is told width and height first; it may
-// be empty, and may throw.
+// A mask has 8 bits, code for code, no palette, and alpha where that is opaque everywhere; of a still it is left out.
+// Throws InputError naming `name` where it is anything else, or damaged. `check_size` is told width and height first;
+// it may be empty, and may throw.
 [[nodiscard]] FilePicture read_png(std::span<const std::byte> file, const std::string& name, PngUse use,
                                    const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
 

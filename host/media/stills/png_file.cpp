@@ -15,6 +15,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "media/clip.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/input_kinds.hpp"
@@ -89,6 +90,12 @@ constexpr int kDeflateLevel = 1, kZlibLevel = 2;
 // Larger pictures are compressed row by row, which takes several times as long, and next to no memory.
 constexpr std::uint64_t kMostAtOnce = 64 << 20;
 
+// What cICP names it by, whose primaries go before those of other chunks.
+std::optional<std::uint8_t> named_transfer(const Picture& picture) {
+  const bool are_named = picture.shape.channels == 1 || coding_point(picture.primaries) != kUnnamedPrimaries;
+  return picture.transfer && are_named ? coding_point(*picture.transfer) : std::nullopt;
+}
+
 // What codes stand for: in cICP, which this libpng has no function for, and in older chunks or a profile.
 void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   if (picture.pixel_aspect != Rational{1, 1}) {
@@ -103,17 +110,20 @@ void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   } else if (transfer.is_linear() || transfer.kind() == Transfer::Kind::gamma) {
     png_set_gAMA(png, info, std::log(transfer.fraction_of(0.5)) / std::log(0.5));
     const auto& xy = chromaticities(picture.primaries);
-    png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
+    const auto is_seen = [](const auto& at) { return at[0] >= 0 && at[1] >= 0 && at[0] + at[1] <= 1; };
+    // Libpng refuses others.
+    if (std::ranges::all_of(xy, is_seen))
+      png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
   }
   const bool has_older_chunks = png_get_valid(png, info, PNG_INFO_cHRM) != 0;
-  if (coding_point(transfer) && has_older_chunks) return;
+  if (named_transfer(picture) && has_older_chunks) return;
   const std::vector<std::byte> profile = colour_profile(picture);
   png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, reinterpret_cast<png_const_bytep>(profile.data()),
                static_cast<png_uint_32>(profile.size()));
 }
 
 void write_coding_points(png_structp png, const Picture& picture) {
-  const auto transfer = picture.transfer ? coding_point(*picture.transfer) : std::nullopt;
+  const auto transfer = named_transfer(picture);
   if (!transfer) return;
   constexpr png_byte kRgb = 0, kFullRange = 1;
   const std::array<png_byte, 4> points{coding_point(picture.primaries), *transfer, kRgb, kFullRange};
@@ -225,12 +235,8 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
-  const bool has_alpha =
+  const bool is_clear =
       (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(read.png, read.info, PNG_INFO_tRNS) != 0;
-  if (use == PngUse::still && has_alpha) {
-    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-                            is_colour ? 4 : 2));
-  }
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
                     is_colour && !is_indexed ? 3u : 1u};
   if (check_size) check_size(shape.width, shape.height);
@@ -238,7 +244,9 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
   if (shape.pixel_count() > kMostPixels)
     throw InputError(format("{} cannot be read: it has {} x {} pixels, more than {}", name, shape.width,
                             shape.height, kMostPixels));
-  if (has_alpha) png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
+  const bool has_alpha = is_clear && use == PngUse::mask;
+  // Of a tRNS one code is transparent.
+  has_alpha ? png_set_tRNS_to_alpha(read.png) : png_set_strip_alpha(read.png);
   is_indexed ? png_set_packing(read.png) : png_set_expand_gray_1_2_4_to_8(read.png);
   if (bits == 16) png_set_swap(read.png);  // PNG has the high byte first
   const int passes = png_set_interlace_handling(read.png);
@@ -262,7 +270,9 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
   int compression = 0;
   png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size);
   const auto* const bytes = reinterpret_cast<const std::byte*>(profile);
-  return {.picture = std::move(picture), .profile = {bytes, bytes + size}};
+  return {.picture = std::move(picture),
+          .profile = {bytes, bytes + size},
+          .left_out = is_clear && !has_alpha ? kTransparency : ""};
 }
 
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
@@ -346,7 +356,8 @@ void write_png(OutputFile& file, const Picture& picture, const std::string& text
 
 constinit const inputs::InputKind inputs::kPng{
     .name = "PNG", .starts = {"\x89PNG\r\n\x1a\n"}, .extensions = " .png ",
-    .said = {"none", "none", "as stored, white 255, or 65535 with a note", "EXIF", "refused", "one picture"},
+    .said = {"none", "none", "as stored, white 255, or 65535 with a note", "EXIF", "left out",
+             "one picture"},
     .text = read_text,
     .written = {{.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png}}};
 

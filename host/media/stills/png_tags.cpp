@@ -13,7 +13,6 @@ namespace {
 // Primaries, transfer function, matrix and range, a byte each. Where both of the first are known, they go before what
 // other chunks say. Throws InputError where the codes are none that are read.
 bool follow_coding_points(PngTags& tags, std::string_view points, std::uint64_t bits, const std::string& name) {
-  constexpr unsigned kUnspecified = 2;
   const auto number = [&](std::size_t at) { return unsigned{static_cast<unsigned char>(points[at])}; };
   if (number(2) != 0) {
     throw InputError(format("{} cannot be read: its cICP names matrix {}, of codes that are not RGB; save it as RGB",
@@ -29,7 +28,7 @@ bool follow_coding_points(PngTags& tags, std::string_view points, std::uint64_t 
   const auto primaries = primaries_of_coding_point(number(0));
   const auto transfer = transfer_of_coding_point(number(1));
   const auto unread = [&](std::size_t at) {
-    return number(at) == kUnspecified ? std::string() : format("number {} of H.273", number(at));
+    return number(at) == kUnnamedPrimaries ? std::string() : format("number {} of H.273", number(at));
   };
   if (!primaries) tags.unread_primaries = unread(0);
   if (!transfer) tags.unread_transfer = unread(1);
@@ -63,11 +62,14 @@ PngTags read_png_tags(std::span<const std::byte> png, const std::string& file) {
     } else if (name == "cHRM" && length == 32 && !tags.primaries && !has_coding_points) {
       // White, red, green and blue.
       const auto at = [&](std::size_t each) {
-        return std::array{static_cast<double>(big_endian(data, 8 * each, 4)) / kParts,
-                          static_cast<double>(big_endian(data, 8 * each + 4, 4)) / kParts};
+        const auto number = [&](std::size_t from) {  // of some cameras' blue y is below 0
+          return static_cast<std::int32_t>(big_endian(data, from, 4)) / kParts;
+        };
+        return std::array{number(8 * each), number(8 * each + 4)};
       };
-      tags.primaries = primaries_at({at(1), at(2), at(3), at(0)});
-      if (!tags.primaries) tags.unread_primaries = kOtherPrimaries;
+      const NamedPrimaries named = primaries_at({at(1), at(2), at(3), at(0)});
+      tags.primaries = named.known;
+      tags.unread_primaries = named.unread;
     } else if (name == "iCCP") {
       tags.has_profile = true;
     } else if (name == "pHYs" && length >= 8) {

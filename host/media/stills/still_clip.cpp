@@ -48,6 +48,7 @@ struct Still {
   std::string profile = {};                                 // whose colours these are; empty: the file's own
   std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
   bool holds_light = false;
+  std::string left_out = {};
 };
 
 // How much wider than high a pixel is of which so many are as long as one and the same length. Pictures state pixels an
@@ -160,6 +161,7 @@ Still still_of(FilePicture&& read, const Reading& reading, const Page& page) {
   Still still = holds_codes(read.picture.type) ? still_of(std::move(read.picture), read.maximum)
                                                : still_of_light(read.picture, reading, page);
   if (!read.profile.empty()) follow_profile(still, read.profile);
+  still.left_out = std::move(read.left_out);
   if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
   turn_upright(still, read.orientation);
   return still;
@@ -213,8 +215,9 @@ Still read_dng_still(const Page& page, Reading& reading) {
 Still read_exr_still(const Page& page, Reading& reading) {
   const ExrPicture read = read_exr(page.file);
   Still still = still_of_light(read.light, reading, page);
-  still.primaries = read.primaries;
-  if (read.names_others) still.unread_primaries = kOtherPrimaries;
+  still.primaries = read.primaries.known;
+  still.unread_primaries = read.primaries.unread;
+  still.left_out = read.left_out;
   still.pixel_aspect = aspect_of(1, read.pixel_aspect);
   return still;
 }
@@ -299,6 +302,8 @@ class StillClip final : public Clip {
                           {default_transfer(first_), first_.transfer, first_.primaries, first_.profile,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
     add_unread_colours(options);
+    info_.left_out = first_.left_out;
+    if (!info_.left_out.empty()) info_.notes.emplace_back(left_out_note(info_.left_out));
     if (is_developed && pages_.size() > 1) {
       info_.notes.emplace_back(
           format("black level, white balance and colours of all pictures are those that {} states",
@@ -319,9 +324,15 @@ class StillClip final : public Clip {
     check_like_first(still, page);
     check_colours(still, page);
     check_pixel_aspect(still, page);
+    if (remark_.empty() && !still.left_out.empty() && still.left_out != info_.left_out)
+      remark_ = format("{}: {}", page.name(), left_out_note(still.left_out));
     std::memcpy(raster.data(), still.codes.data(), still.codes.size());
     ++next_;
     return true;
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return remark_.empty() ? std::vector<std::string>{} : std::vector{remark_};
   }
 
   [[nodiscard]] bool makes_codes() const override { return info_.holds_light; }
@@ -336,22 +347,23 @@ class StillClip final : public Clip {
  private:
   Still read(const Page& page) { return read_still(page, reading_); }
 
-  // A profile was made for these codes: what it says and is not known here would be right.
+  // A profile or primaries were meant for these codes: what they say and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
-    const bool is_colour = first_.shape.channels > 1;
-    if (first_.profile.empty()) return;
+    const bool has_profile = !first_.profile.empty();
     std::vector<Setting> open;
-    if (!first_.transfer && !options.transfer) open.push_back(Setting::transfer);
-    if (is_colour && !first_.primaries && !options.primaries) open.push_back(Setting::primaries);
+    if (has_profile && !first_.transfer && !options.transfer) open.push_back(Setting::transfer);
+    if (first_.shape.channels > 1 && !first_.unread_primaries.empty() && !options.primaries)
+      open.push_back(Setting::primaries);
     if (open.empty()) return;
     const bool are_both = open.size() == 2, is_transfer = open.front() == Setting::transfer;
+    const std::string what =
+        has_profile ? format("{} says what the codes stand for, and its {}", first_.profile,
+                             are_both ? "curves and primaries" : is_transfer ? "curves" : "primaries")
+                    : format("the file's primaries, {},", first_.unread_primaries);
     info_.notes.emplace_back(
-        format("{} says what the codes stand for, and its {} known here: what is usual "
-               "is taken, and colours are wrong by what it differs; state what comes nearest",
-               first_.profile,
-               are_both      ? "curves and primaries are none that are"
-               : is_transfer ? "curves are none that are"
-                             : "primaries are none that are"),
+        format("{} are none that are known here: what is usual is taken, and colours are wrong by what it differs; {}"
+               "state what comes nearest",
+               what, has_profile ? "magick IN -profile sRGB.icc OUT makes pictures of known ones; or " : ""),
         std::move(open));
   }
 
@@ -451,6 +463,7 @@ class StillClip final : public Clip {
   std::optional<std::uint32_t> first_maximum_;
   std::string unread_transfer_, unread_primaries_;  // of the first
   ClipOptions stated_;
+  std::string remark_;  // on the first later still of which something else is left out
   std::size_t next_ = 0;
   ClipInfo info_;
 };

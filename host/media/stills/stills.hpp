@@ -38,18 +38,22 @@ struct PngTags {
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers);
-// The primaries whose red, green, blue and white have these chromaticities, as nearly as files state them.
-[[nodiscard]] std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points);
-inline constexpr const char* kOtherPrimaries = "other chromaticities";
+// The primaries whose red, green, blue and white have these chromaticities, as nearly as files state them; else these,
+// for people.
+struct NamedPrimaries {
+  std::optional<Primaries> known = std::nullopt;
+  std::string unread = {};
+};
+[[nodiscard]] NamedPrimaries primaries_at(const std::array<std::array<double, 2>, 4>& points);
 
 struct ExrPicture {
   Picture light;
-  std::optional<Primaries> primaries;
-  bool names_others = false;
+  NamedPrimaries primaries;
+  std::string left_out;  // channels beside R, G and B or one of grey (media/clip.hpp)
   double pixel_aspect = 1;
 };
-// Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
-// or other pixels than its picture.
+// Light in light32, and what its file says of it. Throws InputError where it has none of these channels, or other
+// pixels than its picture.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& file);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,
                                                        const char* keyword);

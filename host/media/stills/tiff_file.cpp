@@ -110,7 +110,7 @@ constinit const inputs::InputKind inputs::kTiff{
     .said = {"ImageJ's or OME's description", "none",
              "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of "
              "OpenEXR",
-             "`Orientation`", "refused", "its pages"},
+             "`Orientation`", "left out", "its pages"},
     .has_tags = true, .text = read_description,
     .written = {{.extension = ".tif", .also = ".tiff", .code_bits = 16, .holds_light = true, .holds_double = true,
                  .write = write_tiff, .write_layers = write_tiff_layers}}};

@@ -11,6 +11,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/clip.hpp"
 #include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 
@@ -56,6 +57,7 @@ class PageReader {
     page.density = resolution();
     page.profile = profile();
     page.orientation = orientation();
+    page.left_out = left_out_;
     return page;
   }
 
@@ -73,7 +75,7 @@ class PageReader {
   void read_layout() {
     shape_.width = field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
     shape_.height = field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
-    shape_.channels = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+    samples_ = shape_.channels = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
     bits_ = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
     photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     separate_ = field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
@@ -88,13 +90,18 @@ class PageReader {
       fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
                   shape_.width, shape_.height, file_bytes_));
     }
-    if (photometric_ == PHOTOMETRIC_SEPARATED) fail("its colours are CMYK; grey and RGB are read");
+    constexpr const char* kToRgb = "grey and RGB are read: magick IN.tif -colorspace sRGB OUT.tif makes these";
+    if (photometric_ == PHOTOMETRIC_SEPARATED) fail(format("its colours are CMYK; {}", kToRgb));
     if (photometric_ == PHOTOMETRIC_CIELAB || photometric_ == PHOTOMETRIC_ICCLAB || photometric_ == PHOTOMETRIC_ITULAB)
-      fail("its colours are L*a*b*; grey and RGB are read");
-    if (shape_.channels != 1 && shape_.channels != 3) {
-      fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
+      fail(format("its colours are L*a*b*; {}", kToRgb));
+    leave_channels_out();
+    if (is_grey() && shape_.channels > 1) {
+      fail(format("its {} samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); "
+                  "save one of them, or three as RGB",
                   shape_.channels));
     }
+    if (shape_.channels != 1 && shape_.channels != 3)
+      fail(format("it has {} channels; grey (1) and colour (3) are read: save it as RGB", shape_.channels));
     auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     if (sample_format == SAMPLEFORMAT_VOID) sample_format = SAMPLEFORMAT_UINT;  // undefined, as if there were no tag
     is_light_ = sample_format == SAMPLEFORMAT_IEEEFP && (bits_ == 32 || bits_ == 64);
@@ -107,14 +114,25 @@ class PageReader {
                   : sample_format >= SAMPLEFORMAT_COMPLEXINT ? "complex"
                                                              : "unsigned"));
     }
-    if (is_grey() && shape_.channels == 3) {
-      fail(
-          "its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of "
-          "them, or all as RGB");
-    }
     if (is_light_ && (photometric_ == PHOTOMETRIC_MINISWHITE || !is_plain())) {
       fail(format("its floating-point values are no light (photometric interpretation {})", photometric_));
     }
+  }
+
+  // All beside RGB, transparency beside grey: what else there is beside grey is grey, too.
+  void leave_channels_out() {
+    std::uint16_t count = 0;
+    const std::uint16_t* kinds = nullptr;
+    const bool is_clear = TIFFGetFieldDefaulted(file_, TIFFTAG_EXTRASAMPLES, &count, &kinds) == 1 && count == 1 &&
+                          kinds[0] != EXTRASAMPLE_UNSPECIFIED;
+    const bool is_rgb = photometric_ == PHOTOMETRIC_RGB;
+    const std::uint32_t colours = is_rgb ? 3 : 1;
+    left_out_.clear();
+    if (samples_ <= colours || !(is_rgb || (is_grey() && is_clear))) return;
+    shape_.channels = colours;
+    left_out_ = is_clear                  ? kTransparency
+                : samples_ == colours + 1 ? "channel 4"
+                                          : format("channels 4 to {}", samples_);
   }
 
   // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
@@ -179,19 +197,20 @@ class PageReader {
   // Puts `count` pixels of a row where they belong.
   void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset, std::uint32_t x,
              std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
-    const std::uint32_t together = separate_ ? 1 : shape_.channels;
+    const std::uint32_t together = separate_ ? 1 : shape_.channels, stored_together = separate_ ? 1 : samples_;
     const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
     if (is_light_) {
       const std::size_t value = value_bytes(picture.type), run = value * together;
       for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(picture.bytes.data() + (to + i * shape_.channels) * value, row.data() + offset + i * run, run);
+        std::memcpy(picture.bytes.data() + (to + i * shape_.channels) * value,
+                    row.data() + offset + i * stored_together * value, run);
       return;
     }
     const std::uint32_t full = (1u << bits_) - 1;
     const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
     const std::uint32_t black = stated_maximum().value_or(full);  // if it is inverted
     for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
-      const std::uint32_t stored = value(row, offset, i);
+      const std::uint32_t stored = value(row, offset, i / together * stored_together + i % together);
       if (inverted && stored > black) fail(format("its value {} is above its MaxSampleValue, {}", stored, black));
       // Fewer than 8 bits are spread over 8, as all programs show them.
       const std::uint32_t code = (inverted ? black - stored : stored) * (bits_ < 8 ? 255 / full : 1);
@@ -206,7 +225,7 @@ class PageReader {
 
   void read_rows(Picture& picture, std::uint16_t plane) const {
     const std::uint64_t row_bytes = TIFFScanlineSize64(file_);
-    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    const std::uint64_t together = separate_ ? 1 : samples_;
     if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > max_page_bytes(file_bytes_)) {
       fail(format("it states rows of {} bytes", row_bytes));
     }
@@ -245,7 +264,7 @@ class PageReader {
     const auto width = field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
     const auto height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
     const std::uint64_t row_bytes = TIFFTileRowSize64(file_), tile_bytes = TIFFTileSize64(file_);
-    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    const std::uint64_t together = separate_ ? 1 : samples_;
     if (width == 0 || height == 0 || width > kLargestPageSide || height > kLargestPageSide ||
         row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
         tile_bytes > max_page_bytes(file_bytes_)) {
@@ -295,6 +314,8 @@ class PageReader {
   std::string name_;
   std::uint64_t file_bytes_;
   Shape shape_;
+  std::uint32_t samples_ = 0;  // of a pixel as it is stored
+  std::string left_out_;       // of these (media/clip.hpp)
   std::uint16_t bits_ = 0;
   std::uint16_t photometric_ = 0;
   bool separate_ = false;

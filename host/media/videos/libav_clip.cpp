@@ -206,7 +206,7 @@ class LibavClip final : public Clip {
                            "to and fro, they are wrong",
                            to_text(*fields_), other_order_));
     }
-    if (has_transparent_) all.emplace_back(kNoTransparency);
+    if (has_transparent_) all.push_back(left_out_note(kTransparency));
     return all;
   }
 

@@ -437,7 +437,7 @@ void note_left_out(const OpenedVideo& opened, const std::filesystem::path& path,
   const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
   const bool says_so = mode != nullptr && mode->value == std::string_view("1");
   if ((has_alpha && stream.codecpar->codec_id != AV_CODEC_ID_GIF) || says_so)
-    result.notes.emplace_back(kNoTransparency);
+    result.notes.emplace_back(left_out_note(kTransparency));
 }
 
 // Packets of the stream of pictures, up to the file's end or to where it cannot be read.

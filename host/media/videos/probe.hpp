@@ -16,8 +16,6 @@
 
 namespace nutik::videos {
 
-inline constexpr const char* kNoTransparency = "the file's transparency is left out";
-
 struct Probe {
   int stream = 0;  // index of the picture stream
   Shape shape;     // of the decoded pictures, before they are turned

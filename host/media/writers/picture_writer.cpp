@@ -111,6 +111,11 @@ bool is_lossy_name(const std::filesystem::path& path) {
   return kind != nullptr && kind->is_lossy;
 }
 
+bool is_silent_name(const std::filesystem::path& path) {
+  const WrittenFormat* kind = find_format(path);
+  return kind != nullptr && kind->is_silent;
+}
+
 bool has_text_by_name(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
   return std::ranges::any_of(inputs::kWritten, [&](const inputs::InputKind* kind) {
@@ -177,7 +182,8 @@ void write_layers(const std::filesystem::path& path, std::span<const PictureLaye
 // Read and written by a module.
 constinit const inputs::InputKind inputs::kExr{
     .name = "OpenEXR", .starts = {"\x76\x2F\x31\x01"}, .extensions = " .exr ",
-    .said = {"none", "none", "floating-point light, over 16 bits by the white that you state", "as it lies", "refused",
+    .said = {"none", "none", "floating-point light, over 16 bits by the white that you state", "as it lies",
+             "left out",
              "one picture"},
     .has_tags = true,
     .text = [](Bytes, const auto& path) { return still_module().read_exr_text(path, kPictureTextKeyword); },

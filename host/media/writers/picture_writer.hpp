@@ -30,6 +30,8 @@ enum class Depth { bits8, bits16, half, floating, doubled };
 [[nodiscard]] bool is_picture_name(const std::filesystem::path& path);
 // Whether it is one of files whose codes are near those of the picture, as near as a quality says.
 [[nodiscard]] bool is_lossy_name(const std::filesystem::path& path);
+// Whether it is one of files that do not tell what their values mean.
+[[nodiscard]] bool is_silent_name(const std::filesystem::path& path);
 // Whether it is one of files that have a place for a line of text.
 [[nodiscard]] bool has_text_by_name(const std::filesystem::path& path);
 // `.png, .tif, … or .npy`: those extensions.

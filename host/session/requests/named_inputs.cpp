@@ -60,6 +60,7 @@ ReadPicture read_still(const std::string& name, double white, std::string_view t
   ClipOptions options;
   options.white_light = white;
   const auto clip = open_clip(name, options);
+  refuse_left_out(name, clip->info().left_out);
   const CaptureFormat& kind = clip->info().format;
   Picture picture(kind.shape, code_type(kind), kind.white_code);
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
