@@ -223,7 +223,8 @@ class PathParser {
   // `# nutik camera path,rigid,reference 12,640 x 480`, with commas between, as spreadsheets leave it.
   void take_title() {
     line_left_ = next_line();
-    if (next_word() != kTitle) fail(format("this is no camera's path: '{},MOTION,REFERENCE,WIDTH,HEIGHT' is expected", kTitle));
+    if (next_word() != kTitle)
+      fail(format("this is no camera's path: '{},MOTION,REFERENCE,WIDTH,HEIGHT' is expected", kTitle));
     const auto motion = camera_motion_of(next_word());
     if (!motion || *motion == CameraMotion::automatic) fail("it names no motion: translation, rigid or homography");
     path_.motion = *motion;
