@@ -34,9 +34,9 @@ inline constexpr std::uint32_t kDefaultWidth = 1600;
 inline constexpr std::uint64_t kMaxPictures = 400;  // on a sheet
 inline constexpr std::uint32_t kNarrowestCell = 48;  // in which a label can be read
 
-// A layout for `count` pictures of this shape. Where no width was asked for, none is enlarged
-// but to a width that a label and as much beside it need. Throws
-// UsageError where pictures would be narrower than kNarrowestCell, or the sheet higher than can be drawn.
+// A layout for `count` pictures of this shape. Where no width was asked for, none is enlarged beyond twice
+// kNarrowestCell. Throws UsageError where pictures would be narrower than kNarrowestCell, or the sheet higher than can
+// be drawn.
 [[nodiscard]] SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes& wishes);
 
 class ContactSheet {

@@ -245,7 +245,7 @@ FilePicture read_png(std::span<const std::byte> file, const std::string& name, P
     throw InputError(format("{} cannot be read: it has {} x {} pixels, more than {}", name, shape.width,
                             shape.height, kMostPixels));
   const bool has_alpha = is_clear && use == PngUse::mask;
-  // Of a tRNS one code is transparent.
+  // A tRNS names one code that is transparent.
   has_alpha ? png_set_tRNS_to_alpha(read.png) : png_set_strip_alpha(read.png);
   is_indexed ? png_set_packing(read.png) : png_set_expand_gray_1_2_4_to_8(read.png);
   if (bits == 16) png_set_swap(read.png);  // PNG has the high byte first
