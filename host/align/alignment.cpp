@@ -177,7 +177,7 @@ class AlignedClip final : public Clip {
   }
 
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+  [[nodiscard]] std::vector<Note> remarks() const override { return clip_->remarks(); }
 
  private:
   std::string name_;

@@ -49,7 +49,7 @@ class FilledClip final : public Clip {
     if (auto reason = clip_->ended_early()) return reason;
     return lost_pictures_text(name_, clip_->info().sample_count, made_->after.size());
   }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+  [[nodiscard]] std::vector<Note> remarks() const override { return clip_->remarks(); }
 
  private:
   // The next sample, into `raster` unless that is empty.

@@ -179,7 +179,7 @@ class Clip {
   [[nodiscard]] virtual std::optional<std::string> ended_early() const { return std::nullopt; }
 
   // After it has ended, what was done to its pictures that only they told.
-  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  [[nodiscard]] virtual std::vector<Note> remarks() const { return {}; }
 
   // Whether samples can also be read as the pixels that change: where there are many, and most pixels stay as they
   // were.

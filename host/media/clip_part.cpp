@@ -176,7 +176,7 @@ class ClipPart final : public Clip {
   }
 
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+  [[nodiscard]] std::vector<Note> remarks() const override { return clip_->remarks(); }
 
  private:
   void skip_to_part(std::span<std::byte> raster) {

@@ -161,15 +161,15 @@ class DeflickeredClip final : public Clip {
 
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
 
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    std::vector<std::string> remarks = clip_->remarks();
+  [[nodiscard]] std::vector<Note> remarks() const override {
+    std::vector<Note> remarks = clip_->remarks();
     if (corrected_ > 0) {
-      remarks.push_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
+      remarks.emplace_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
                                corrected_.load(), pictures_.load(), max_ * info_.format.white_code,
                                info_.format.white_code));
     }
     if (untold_ > 0) {
-      remarks.push_back(
+      remarks.emplace_back(
           format("{} of {} pictures follow no one curve from those before them, for they show too little of these or "
                  "are lit unequally, or need one steeper than {:.0f}: they were corrected as the one before each",
                  untold_.load(), pictures_.load(), kSteepest));

@@ -59,7 +59,7 @@ class PerhapsDamaged final : public Clip {
   [[nodiscard]] std::optional<std::string> ended_early() const override {
     return has_ended_ ? std::optional(reason_) : std::nullopt;
   }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+  [[nodiscard]] std::vector<Note> remarks() const override { return clip_->remarks(); }
 
  private:
   template <typename Take>

@@ -367,7 +367,8 @@ ExposedPicture Session::render(const ExposureRequest& request, const OutputForma
                         [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask,
                             const PlanOptions& options, std::uint64_t stream_bytes) {
                           return state_->expose(stream, functions, mask, options, output, control, stream_bytes);
-                        });
+                        },
+                        state_->notes_);
 }
 
 ExposedPicture Session::render(const FunctionSet& functions, const Mask& mask, const PlanOptions& options,

@@ -149,7 +149,7 @@ class PicturesClip final : public Clip {
     return format("{} has {} pictures and {} times; those left over are of none", name_, taken_, info_.sample_count);
   }
 
-  [[nodiscard]] std::vector<std::string> remarks() const override {
+  [[nodiscard]] std::vector<Note> remarks() const override {
     const Fact& last = info_.facts.back();  // of 16 bits what white is
     const bool is_assumed = last.setting == Setting::white_code && last.origin == Origin::assumed;
     if (!is_assumed || largest_ == 0 || largest_ > kLeast) return {};

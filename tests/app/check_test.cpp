@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "support/app_test.hpp"
+#include "support/ffmpeg.hpp"
 
 namespace nutik::test {
 namespace {
@@ -145,6 +146,26 @@ TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
     EXPECT_EQ(found.at("functions").at(0).at("samples"), 10);
   }
   EXPECT_TRUE(is_found);
+}
+
+TEST_F(Check, ReadsTheClipsPictures) {
+  NEEDS_FFMPEG();
+  scratch_.write("raw", std::string(2048, static_cast<char>(180)) + std::string(4096, '\x80') +
+                            std::string(2048, static_cast<char>(254)) + std::string(4096, '\x80'));
+  test::make(scratch_, from_raw({64, 32, 1}, "yuv444p") + "-c:v ffv1 -color_range tv bright.mkv");
+  expect_says(make("check bright.mkv").out,
+              {"bright.mkv: warning: light above the limited range's white was cut off in up to 100 % of a picture",
+               "-c:v ffv1 darker.mkv keeps it, at half of all light\n1 warning\n"});
+  expect_says(make("check --range full bright.mkv").out, "\nnothing wrong\n");
+  EXPECT_EQ(answer("check bright.mkv").at("findings").at(0).at("kind"), "capture_pictures");
+  // It is said of pictures that are made of the clip, too; of codes that were cut off, not of the exposure's.
+  for (const char* words : {"expose -q --start 0f --exposure 2f bright.mkv bright.png", "encode -q bright.mkv b.tik"})
+    expect_says(make(words).err, "warning: light above the limited range's white was cut off");
+  // What comes before damage counts.
+  const std::string whole = file("bright.mkv");
+  scratch_.write("cut.mkv", whole.substr(0, whole.size() - 600));
+  const auto told = answer("check cut.mkv", 3).at("findings");
+  EXPECT_EQ(told.at(0).at("severity"), "error");
 }
 
 TEST_F(Check, EachInputIsOptional) {

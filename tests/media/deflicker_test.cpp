@@ -68,7 +68,7 @@ std::vector<std::vector<std::byte>> read_deflickered(const std::vector<Picture>&
   }
   const auto clip = deflicker(open_test_clip(scratch.folder(), {.rate = Rational{100, 1}}));
   auto rasters = read_all(*clip);
-  remarks = clip->remarks();
+  for (const Note& remark : clip->remarks()) remarks.push_back(remark.text);
   return rasters;
 }
 

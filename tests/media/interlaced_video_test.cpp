@@ -100,7 +100,7 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
     read_all(*clip);
     std::string all;
     for (const Note& note : clip->info().notes) all += note.text + "\n";
-    for (const std::string& remark : clip->remarks()) all += remark + "\n";
+    for (const Note& remark : clip->remarks()) all += remark.text + "\n";
     return all;
   };
   for (const char* name : {"told.mkv", "by-picture.avi", "else-told.mkv"}) {
@@ -135,7 +135,7 @@ TEST_F(InterlacedVideo, IsSaidOfPicturesWithoutAHeader) {
       open_test_clip(scratch_ / "whole.bytes", {.raw = RawVideo{64, 48, "gray"}, .interlaced = Interlaced::frames});
   read_all(*clip);
   ASSERT_EQ(clip->remarks().size(), 1u);
-  EXPECT_TRUE(clip->remarks()[0].starts_with("nothing in the clip says that it is interlaced")) << clip->remarks()[0];
+  EXPECT_TRUE(clip->remarks()[0].text.starts_with("nothing in the clip says that it is interlaced"));
 }
 
 TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
@@ -153,7 +153,7 @@ TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
                        "-flags +ilme+ildct other.mp4");
   const auto other = open_test_clip(scratch_ / "other.mp4", {.interlaced = Interlaced::fields});
   read_all(*other);
-  EXPECT_EQ(other->remarks().at(0).find("the container says top field first, and 10 frames say the other"), 0u);
+  EXPECT_EQ(other->remarks().at(0).text.find("the container says top field first, and 10 frames say the other"), 0u);
   // Where a file only says so, nothing is lost: nothing moves, and every picture is every other.
   test::make(scratch_,
              "-f lavfi -i color=c=0x808080:size=64x48:rate=25 -frames:v 3 -vf format=gray,setfield=tff "

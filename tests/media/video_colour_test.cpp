@@ -324,8 +324,64 @@ TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
     const auto clip = open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
     read_all(*clip);
     auto told = clip->remarks();
-    for (const Note& note : clip->info().notes) told.push_back(note.text);
-    EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out"), is_told) << words;
+    told.insert(told.end(), clip->info().notes.begin(), clip->info().notes.end());
+    EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out", &Note::text), is_told) << words;
+  }
+}
+
+// 32 x 32 pixels, of which so many have a luma of `code`, the others that of white.
+TEST(VideoColour, TellsOfLightAboveTheWhiteOfTheLimitedRange) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const std::string pixels : {"yuv444p", "yuv420p", "yuv422p10le", "uyvy422", "gray", "gray12le", "gbrp"}) {
+    const auto told = [&](int bright, int code, CodeRange range = CodeRange::limited) {
+      std::string raw(std::size_t{32} * 32, static_cast<char>(235));
+      std::fill_n(raw.begin(), bright, static_cast<char>(code));
+      scratch.write("raw", raw);
+      // Luma, and RGB, are these codes at any depth.
+      test::make(scratch, from_raw({32, 32, 1}, "gray") + "-c:v rawvideo -vf " +
+                              (pixels == "gbrp" ? "extractplanes=y,format=gray,mergeplanes=0x000000:gbrp"
+                                                : "scale=in_range=tv:out_range=tv,format=" + pixels) + " clip.nut");
+      const auto clip = open_test_clip(scratch / "clip.nut", {.range = range});
+      read_all(*clip);
+      return clip->remarks();
+    };
+    EXPECT_TRUE(told(1024, 235).empty()) << pixels;
+    EXPECT_TRUE(told(1, 254).empty()) << pixels;  // less than a thousandth
+    EXPECT_TRUE(told(512, 254, CodeRange::full).empty()) << pixels;
+    const auto remarks = told(512, 237);
+    ASSERT_EQ(remarks.size(), 1u) << pixels;
+    EXPECT_TRUE(remarks[0].is_warning);
+    expect_says(remarks[0].text, "cut off in up to 50 % of a picture (pictures with at least 0.1 %: 1), and bounds");
+  }
+}
+
+// What it advises makes the light that was cut off.
+TEST(VideoColour, KeepsLightAboveWhiteByTheAdvisedCommand) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  scratch.write("raw", std::string(1024, static_cast<char>(250)) + std::string(2048, static_cast<char>(128)));
+  const std::string words = from_raw({32, 32, 1}, "yuv444p") + "-c:v ffv1 ";
+  test::make(scratch, words + "clip.mkv");
+  const auto told = [&](const ClipOptions& options) {
+    const auto clip = open_test_clip(scratch / "clip.mkv", options);
+    read_all(*clip);
+    return clip->remarks().at(0);
+  };
+  const Note assumed = told({});
+  EXPECT_TRUE(assumed.text.ends_with("; if the clip is of the full range, say so")) << assumed.text;
+  EXPECT_EQ(assumed.settings, std::vector{Setting::range});
+  EXPECT_EQ(told({.transfer = Transfer::bt709(), .range = CodeRange::limited}).text.find("ffmpeg"), std::string::npos);
+  for (const char* tags : {"", "-color_range tv -colorspace bt709 -color_trc bt709 -color_primaries bt709 "}) {
+    test::make(scratch, words + tags + "clip.mkv");
+    const std::string text = told({.range = CodeRange::limited}).text;
+    const std::size_t begin = text.find("-i CLIP"), end = text.find(" keeps it, at half of all light");
+    ASSERT_LT(begin, end) << text;
+    test::make(scratch, "-i clip.mkv" + text.substr(begin + 7, end - begin - 7));
+    const auto clip = open_test_clip(scratch / "darker.mkv");
+    const double signal = (250 - 16) / 219.0, light = std::pow((signal + 0.055) / 1.055, 2.4);
+    const CaptureFormat& format = clip->info().format;
+    EXPECT_NEAR(format.transfer.light_of(code_at(format, read_all(*clip).at(0), 0) / 65'535.0), light / 2, 2e-4);
   }
 }
 

@@ -25,6 +25,7 @@
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/interruption.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {
@@ -228,18 +229,55 @@ void attempt(InputCheck& check, const std::string& name, const std::string& kind
   }
 }
 
+// Reads all pictures, for what only they tell. Returns how many there are: none of a recording of events, whose pixels
+// tell nothing more, and after a mistake.
+std::uint64_t read_pictures(InputCheck& check, ClipSource& source, const Options& options) {
+  Clip& clip = *source.clip;
+  if (clip.tells_changes()) return 0;
+  const std::uint64_t bytes = source.capture.sample_bytes();
+  MemoryNeeds needs;
+  needs.add("the pictures of a decoder", clip.info().decoder_bytes);
+  needs.add("a picture", bytes);
+  needs.rest_of(memory_budget(options).bytes);
+  const auto warn = [&](const Note& note) {
+    check.findings.push_back({.severity = Finding::Severity::warning,
+                              .kind = "capture_pictures",
+                              .file = source.name(),
+                              .message = note.text,
+                              .settings = note.settings});
+  };
+  std::uint64_t count = 0;
+  attempt(check, source.name(), "capture_pictures", [&] {
+    std::vector<std::byte> raster(bytes);
+    std::uint64_t read = 0;
+    for (; clip.read(raster); ++read) check_interruption();
+    std::optional<std::string> lost = clip.ended_early();
+    if (!lost) lost = lost_pictures_text(source.name(), source.announced_samples(), read);
+    if (lost) warn(*lost);
+    count = read;
+  });
+  for (const Note& remark : clip.remarks()) {
+    if (remark.is_warning) {
+      warn(remark);
+    } else {
+      source.notes.push_back(remark);
+    }
+  }
+  return count;
+}
+
 void read_capture(InputCheck& check, const std::string& name, const Options& options) {
   const SourceRequest request = source_request(options, name);
   if (!is_tik(name)) {
-    const ClipSource source = open_clip_source(request, memory_budget(options));
-    const std::uint64_t announced = source.announced_samples();
-    CheckedCapture clip{name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
-    check.capture = clip;
-    if (announced == 0) return;
-    clip.timeline = source.timeline(announced);
-    clip.facts = source.facts(announced);
-    clip.notes = source.all_notes(announced);
-    check.capture = std::move(clip);
+    ClipSource source = open_clip_source(request, memory_budget(options));
+    check.capture = {name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
+    const std::uint64_t read = read_pictures(check, source, options);
+    const std::uint64_t samples = read > 0 ? read : source.announced_samples();
+    if (samples == 0) return;
+    const Timeline timeline = source.timeline(samples);
+    check.capture->timeline = timeline;
+    check.capture->facts = source.facts(samples);
+    check.capture->notes = source.all_notes(samples);
     return;
   }
   tik::Reader reader(name);

@@ -156,6 +156,19 @@ bool is_transparent(const AVFrame& frame) {
   return false;
 }
 
+// From this share of a picture's luma on it is told that light above white was cut off. Codecs' ringing and noise pass
+// white at a few edges of nearly all clips.
+constexpr double kToldShare = 0.001;
+
+// The filter of FFmpeg that keeps such light of a clip whose curve is sRGB's, at half of it; empty: none is known.
+std::string darker_filter(const Probe& probe, const YuvCoding& coding, const Transfer& transfer) {
+  if (!is_colour_yuv(probe) || transfer != Transfer::srgb()) return {};
+  const bool is_named = probe.matrix == coding.matrix;
+  if (!is_named && coding.matrix != YuvMatrix::bt601 && coding.matrix != YuvMatrix::bt709) return {};
+  return format("zscale=rin=limited:{}tin=iec61966-2-1:t=linear:agamma=0,format=gbrpf32le,exposure=-1,format=gbrp16le",
+                is_named ? "" : coding.matrix == YuvMatrix::bt709 ? "min=709:" : "min=170m:");
+}
+
 class LibavClip final : public Clip {
  public:
   LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
@@ -184,6 +197,7 @@ class LibavClip final : public Clip {
     describe(info_, probe, options);
     const YuvCoding coding = yuv_coding(probe, options, name_);
     is_everyday_ = pixels.is_everyday();
+    darker_filter_ = darker_filter(probe, coding, capture.transfer);
     const ColourNumbers coded = colours_of(parameters);
     if (is_colour_yuv(probe) && !options.matrix)
       matrix_ = named_matrix(coded.matrix, coded.primaries).value_or(coding.matrix);
@@ -197,16 +211,18 @@ class LibavClip final : public Clip {
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
-  [[nodiscard]] std::vector<std::string> remarks() const override {
+  [[nodiscard]] std::vector<Note> remarks() const override {
     auto doubt = fields_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
-    std::vector<std::string> all;
-    if (doubt) all.push_back(std::move(*doubt));
+    std::vector<Note> all;
+    if (doubt) all.emplace_back(std::move(*doubt));
     if (other_order_ > 0) {
-      all.push_back(format("the container says {}, and {} frames say the other, which counts: where what moves jumps "
-                           "to and fro, they are wrong",
-                           to_text(*fields_), other_order_));
+      all.emplace_back(
+          format("the container says {}, and {} frames say the other, which counts: where what moves jumps to and fro, "
+                 "they are wrong",
+                 to_text(*fields_), other_order_));
     }
-    if (has_transparent_) all.push_back(left_out_note(kTransparency));
+    if (has_transparent_) all.emplace_back(left_out_note(kTransparency));
+    if (pictures_above_white_ > 0) all.push_back(cut_off());
     return all;
   }
 
@@ -216,6 +232,9 @@ class LibavClip final : public Clip {
     if (decoder_.stream().codecpar->codec_id == AV_CODEC_ID_GIF) has_transparent_ |= is_transparent(*frame_);
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
+    const double above = converter_.share_above_white();
+    pictures_above_white_ += above >= kToldShare ? 1 : 0;
+    most_above_white_ = std::max(most_above_white_, above);
     ++frames_read_;
     return true;
   }
@@ -234,6 +253,21 @@ class LibavClip final : public Clip {
   }
 
  private:
+  [[nodiscard]] Note cut_off() const {
+    Note note = warning_of(format("light above the limited range's white was cut off in up to {:.3g} % of a picture "
+                                  "(pictures with at least {:g} %: {}), and bounds do not hold there",
+                                  100 * most_above_white_, 100 * kToldShare, pictures_above_white_));
+    const auto range = std::ranges::find(info_.facts, Setting::range, &Fact::setting);
+    if (range->origin == Origin::assumed) {
+      note.text += "; if the clip is of the full range, say so";
+      note.settings = {Setting::range};
+    } else if (!darker_filter_.empty()) {
+      note.text +=
+          format("; ffmpeg -i CLIP -vf {} -c:v ffv1 darker.mkv keeps it, at half of all light", darker_filter_);
+    }
+    return note;
+  }
+
   // None for what everyday cameras name whatever theirs is.
   [[nodiscard]] std::optional<Transfer> named_transfer(unsigned curve) const {
     const auto transfer = transfer_of_coding_point(curve);
@@ -415,6 +449,9 @@ class LibavClip final : public Clip {
   bool has_interlaced_ = false;       // a frame that says so itself
   std::uint64_t other_order_ = 0;     // frames that say another one themselves
   bool has_transparent_ = false;      // a GIF's picture
+  std::uint64_t pictures_above_white_ = 0;  // that have at least kToldShare
+  double most_above_white_ = 0;             // a picture's share
+  std::string darker_filter_;
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
 };

@@ -87,6 +87,36 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& codi
   }
 }
 
+// The counts of a few codes are codes themselves: so the compiler makes vectors of as many as there are of codes.
+template <typename Code>
+inline __attribute__((always_inline)) std::uint64_t above(const Code* codes, std::size_t count, Code most) {
+  constexpr std::size_t kCodesAtOnce = 192;
+  std::uint64_t all = 0;
+  for (std::size_t begin = 0; begin < count; begin += kCodesAtOnce) {
+    const std::size_t end = std::min(count, begin + kCodesAtOnce);
+    Code some = 0;
+    for (std::size_t i = begin; i < end; ++i) some = static_cast<Code>(some + (codes[i] > most ? 1 : 0));
+    all += some;
+  }
+  return all;
+}
+
+NUTIK_SIMD_CLONES std::uint64_t codes_above(const std::uint8_t* codes, std::size_t count, std::uint8_t most) {
+  return above(codes, count, most);
+}
+NUTIK_SIMD_CLONES std::uint64_t codes_above(const std::uint16_t* codes, std::size_t count, std::uint16_t most) {
+  return above(codes, count, most);
+}
+
+// As a share of all that there are in `rows` rows of `width` codes.
+template <typename Code>
+double share_above(const std::uint8_t* first, std::ptrdiff_t stride, std::size_t width, int rows, std::uint16_t most) {
+  std::uint64_t found = 0;
+  for (int row = 0; row < rows; ++row)
+    found += codes_above(reinterpret_cast<const Code*>(first + row * stride), width, static_cast<Code>(most));
+  return static_cast<double>(found) / (static_cast<double>(width) * rows);
+}
+
 // Whether libswscale may write rows here: it does so in whole vectors.
 bool is_aligned(std::span<const std::byte> raster, std::size_t row_bytes) {
   constexpr std::size_t kVectorBytes = 64;
@@ -321,13 +351,15 @@ PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding
       coding_(coding),
       raster_format_(raster_format(kind)),
       planar_format_(with_bits("yuv444p", kind.bits)) {
-  if (kind.padding_bits == 0 && !kind.is_limited) return;
   const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
+  if (coding.range == CodeRange::limited) white_ = static_cast<std::uint16_t>(235 * unit);
+  if (kind.padding_bits == 0 && !kind.is_limited) return;
   code_of_.resize(kind.bits > 8 ? 65'536 : 256);
   // RGB of 9 to 15 bits was spread over 16.
   const double steps = kind.is_grey ? 1 : (256 * unit - 1) / static_cast<double>(code_of_.size() - 1);
   for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
     double code = std::round((i >> kind.padding_bits) * steps);
+    if (kind.is_limited && code <= 235 * unit) white_ = static_cast<std::uint16_t>(i);
     if (kind.is_limited) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
     code_of_[i] = static_cast<std::uint16_t>(code);
   }
@@ -386,17 +418,24 @@ const AVFrame& PixelConverter::byte_planes(const AVFrame& frame, const std::stri
   return has_byte_planes(format) ? frame : scaled(frame, with_byte_planes(format), name);
 }
 
+const AVFrame& PixelConverter::looked_at(const AVFrame& planes) {
+  if (!white_) return planes;
+  share_above_white_ = (kind_.bits > 8 ? share_above<std::uint16_t> : share_above<std::uint8_t>)(
+      planes.data[0], planes.linesize[0], static_cast<std::size_t>(planes.width), planes.height, *white_);
+  return planes;
+}
+
 const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
   if (kind_.is_grey || !is_yuv(static_cast<AVPixelFormat>(frame.format))) {
     return scaled(frame, raster_format_, name);
   }
   if (kind_.is_everyday()) {
     if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB24, frame.width, frame.height);
-    eight_bit_rgb(byte_planes(frame, name), coding_, rgb_->data[0], rgb_->linesize[0]);
+    eight_bit_rgb(looked_at(byte_planes(frame, name)), coding_, rgb_->data[0], rgb_->linesize[0]);
     return *rgb_;
   }
   // libswscale only gives every pixel its U and V.
-  const AVFrame& planes = scaled(frame, planar_format_, name);
+  const AVFrame& planes = looked_at(scaled(frame, planar_format_, name));
   if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
   yuv_to_rgb(planes, kind_.bits, coding_, *rgb_);
   return *rgb_;
@@ -410,7 +449,7 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
   const bool stays = upright_.orientation() == 1;
   auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
   if (kind_.is_everyday() && is_yuv(static_cast<AVPixelFormat>(frame.format)) && stays) {
-    eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
+    eight_bit_rgb(looked_at(byte_planes(frame, name)), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
     return;
   }
   if (raster_format_ == AV_PIX_FMT_RGB24 && frame.format != raster_format_ && stays && code_of_.empty() &&
@@ -424,6 +463,10 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
               {static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height), 0}, pixel_bytes,
               upright_.orientation(), raster.data());
   if (code_of_.empty()) return;
+  if (white_) {
+    share_above_white_ = (kind_.bits > 8 ? share_above<std::uint16_t> : share_above<std::uint8_t>)(
+        row, 0, raster.size() / (kind_.bits > 8 ? 2 : 1), 1, *white_);
+  }
   if (kind_.bits <= 8) {
     for (std::byte& code : raster) code = static_cast<std::byte>(code_of_[std::to_integer<std::size_t>(code)]);
     return;

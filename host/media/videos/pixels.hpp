@@ -86,10 +86,16 @@ class PixelConverter {
   // it.
   void convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name);
 
+  // How much of the last picture's luma (of grey and RGB: of its codes) lies above the limited range's white, which all
+  // of it becomes. 0: its range is the full one.
+  [[nodiscard]] double share_above_white() const { return share_above_white_; }
+
  private:
   // An everyday picture of YUV with a plane for each component.
   const AVFrame& byte_planes(const AVFrame& frame, const std::string& name);
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
+  // Looks at its luma; returns the same.
+  const AVFrame& looked_at(const AVFrame& planes);
   void scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name, std::uint8_t* const* planes,
              const int* strides);
   const AVFrame& unpacked(const AVFrame& frame);
@@ -101,6 +107,8 @@ class PixelConverter {
   AVPixelFormat raster_format_;
   AVPixelFormat planar_format_;         // of YUV, before it is RGB
   std::vector<std::uint16_t> code_of_;  // what becomes of each code of grey or RGB; empty: it stays
+  std::optional<std::uint16_t> white_;  // the largest code of luma, or of grey or RGB, that is not above white
+  double share_above_white_ = 0;
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
   ChromaPlace chroma_at_ = kDefaultChromaPlace;

@@ -1,6 +1,8 @@
 #include "session/clips/clip_reading.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -29,7 +31,7 @@ bool has_room_for(const ClipSource& clip) {
 
 ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const MemoryBudget& memory,
                            const ExposureRequest& request, ValueType type, const MemoryNeeds& besides,
-                           const ExposeStream& expose) {
+                           const ExposeStream& expose, std::vector<Note>& notes) {
   const Timeline timeline = source.timeline(sample_count);
   const FunctionSet functions = functions_of(request, timeline);
   const Mask mask = mask_of(request, source.capture.shape);
@@ -52,7 +54,7 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
                           [&](std::uint64_t most) { return samples.next(most); });
   ExposedPicture exposed = expose(stream, functions, mask, options, shares.bytes);
   if (auto reason = source.clip->ended_early()) exposed.warnings.push_back(std::move(*reason));
-  for (std::string& remark : source.clip->remarks()) exposed.warnings.push_back(std::move(remark));
+  std::ranges::move(source.clip->remarks(), std::back_inserter(notes));
   return exposed;
 }
 
@@ -75,12 +77,13 @@ ScratchCapture encode_to_scratch(const SourceRequest& source, const OpenClip& op
 }
 
 ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory, const ExposureRequest& request,
-                              ValueType type, const MemoryNeeds& besides, const ExposeStream& expose) {
+                              ValueType type, const MemoryNeeds& besides, const ExposeStream& expose,
+                              std::vector<Note>& notes) {
   std::optional<std::uint64_t> decoded;  // samples, where they are not those announced
   for (;;) {
     try {
       return expose_once(source, decoded.value_or(source.announced_samples()), memory, request, type, besides,
-                         expose);
+                         expose, notes);
     } catch (const SampleCountMismatch& mismatch) {
       if (decoded == mismatch.sample_count || mismatch.sample_count == 0) {
         throw InputError(format("{}: only {} pictures can be decoded", source.name(), mismatch.sample_count));

@@ -36,10 +36,12 @@ using ExposeStream =
 
 // A clip's number of samples is certain only at its end, which an exposure of its beginning never reaches. So the
 // number that its files announce is used; if decoding proves it wrong, the clip is read once more with the right one.
-// `type` is the picture's, `besides` is held at the same time. Throws InputError if fewer samples can be decoded each
-// time, MemoryTooLittle, UsageError where blocks of the stated length do not fit.
+// `type` is the picture's, `besides` is held at the same time; `notes` gets what only its pictures
+// told. Throws InputError if fewer samples can be decoded each time, MemoryTooLittle, UsageError where blocks of the
+// stated length do not fit.
 [[nodiscard]] ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory,
                                             const ExposureRequest& request, ValueType type,
-                                            const MemoryNeeds& besides, const ExposeStream& expose);
+                                            const MemoryNeeds& besides, const ExposeStream& expose,
+                                            std::vector<Note>& notes);
 
 }  // namespace nutik

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <future>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -80,7 +81,7 @@ class Encoding {
     Timeline timeline = source_.timeline(samples);
     writer_->finish(timeline);
     std::vector<Fact> facts = source_.facts(samples);
-    for (std::string& remark : source_.clip->remarks()) source_.notes.emplace_back(std::move(remark));
+    std::ranges::move(source_.clip->remarks(), std::back_inserter(source_.notes));
     std::vector<Note> notes = source_.all_notes(samples);
     return {source_.capture,  std::move(timeline), writer_->bytes_written(),
             std::move(facts), std::move(notes),    warnings(samples),
