@@ -47,8 +47,55 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   std::string bytes = read_file(scratch / "dolby.mp4");
   bytes.replace(bytes.find("pasp"), 12, "dvcC\1\0\x0A\x0D\0\0\0\0", 12);
   expect_clip_refused(scratch.write("dolby.mp4", bytes), {},
-                      "IPT of Dolby Vision's profile 5: its colours would be wrong. Convert it, for example with "
-                      "ffmpeg -vf libplacebo");
+                      "IPT of Dolby Vision's profile 5: its colours would be wrong. Convert it: ffmpeg -i CLIP "
+                      "-vf libplacebo");
+}
+
+// The advised commands make light that is right to a hundredth; where none does, none is advised.
+TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsConvertedByTheAdvisedCommand) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::array<double, 3> light{0.7, 0.2, 0.4};
+  const auto bt709 = [](double value) { return 1.09929682680944 * std::pow(value, 0.45) - 0.09929682680944; };
+  const double luma = bt709(0.2627 * light[0] + 0.6780 * light[1] + 0.0593 * light[2]);
+  const double from_blue = bt709(light[2]) - luma, from_red = bt709(light[0]) - luma;
+  const std::array constant{luma, from_blue / (from_blue < 0 ? 1.9404 : 1.5816),
+                            from_red / (from_red < 0 ? 1.7184 : 0.9936)};
+  // BT.2100, table 7.
+  std::array<double, 3> lms{};
+  const std::array<std::array<double, 3>, 3> weights{{{1688, 2146, 262}, {683, 2951, 462}, {99, 309, 3688}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) lms[i] += weights[i][k] * light[k] / 4096;
+    lms[i] = Transfer::pq().fraction_of(lms[i]);
+  }
+  const std::array ictcp{(lms[0] + lms[1]) / 2, (6610 * lms[0] - 13'613 * lms[1] + 7003 * lms[2]) / 4096,
+                         (17'933 * lms[0] - 17'390 * lms[1] - 543 * lms[2]) / 4096};
+  const auto message_of = [&](const std::array<double, 3>& yuv, const std::string& tags) {
+    const std::array code{static_cast<int>(std::lround(4 * (16 + 219 * yuv[0]))),
+                          static_cast<int>(std::lround(4 * (128 + 224 * yuv[1]))),
+                          static_cast<int>(std::lround(4 * (128 + 224 * yuv[2])))};
+    scratch.write("raw", planes_of(std::vector(1024, code)));
+    test::make(scratch, from_raw({32, 32, 1}, "yuv444p10le") +
+                            "-c:v ffv1 -color_range tv -color_primaries bt2020 -colorspace " + tags + " clip.mkv");
+    return std::string(error_of<InputError>([&] { return open_test_clip(scratch / "clip.mkv"); })->what());
+  };
+  for (const auto& [yuv, tags] : {std::pair(constant, "bt2020c -color_trc bt2020-10"),
+                                  {constant, "chroma-derived-c -color_trc bt709"},
+                                  {ictcp, "ictcp -color_trc smpte2084"}}) {
+    const std::string text = message_of(yuv, tags);
+    const std::size_t begin = text.find("-i CLIP"), end = text.find(", or state the matrix");
+    ASSERT_LT(begin, end) << text;
+    test::make(scratch, "-i clip.mkv" + text.substr(begin + 7, end - begin - 7));
+    const auto clip = open_test_clip(scratch / "converted.mkv");
+    const auto raster = read_all(*clip).at(0);
+    EXPECT_EQ(clip->info().format.primaries, Primaries::bt2020) << tags;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const CaptureFormat& format = clip->info().format;
+      EXPECT_NEAR(format.transfer.light_of(code_at(format, raster, i) / 65'535.0), light[i], 0.01) << tags << i;
+    }
+  }
+  for (const char* tags : {"smpte2085 -color_trc smpte2084", "ictcp -color_trc arib-std-b67", "bt2020c"})
+    expect_says(message_of(constant, tags), "No command is known that converts it truly");
 }
 
 // Luma that weighs channels as white light is made of the file's primaries.

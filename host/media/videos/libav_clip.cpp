@@ -46,9 +46,12 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
   }
   if (!probe.unread_matrix.empty() && !options.matrix) {
     throw InputError(
-        format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. Convert "
-               "it, for example with ffmpeg -vf {}, or state the matrix that it really has",
-               name, probe.unread_matrix, probe.matrix_filter),
+        format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. {}, or state the "
+               "matrix that it really has",
+               name, probe.unread_matrix,
+               probe.matrix_filter.empty()
+                   ? "No command is known that converts it truly: get it in another"
+                   : format("Convert it: ffmpeg -i CLIP -vf {} -c:v ffv1 converted.mkv", probe.matrix_filter)),
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),

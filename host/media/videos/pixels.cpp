@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "capture/turned.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/phantom_file.hpp"
 #include "system/simd_clones.hpp"
@@ -291,6 +292,19 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
     case AVCOL_SPC_SMPTE240M: return YuvMatrix::smpte240m;
     case AVCOL_SPC_YCGCO: return YuvMatrix::ycgco;
     default: return std::nullopt;
+  }
+}
+
+std::string filter_from_matrix(unsigned space, unsigned curve) {
+  const std::optional<Transfer> transfer = transfer_of_coding_point(curve);
+  switch (space) {
+    case AVCOL_SPC_CHROMA_DERIVED_NCL: return "zscale=m=709,format=yuv444p16le";
+    // Back from light, zimg takes another curve than to it.
+    case AVCOL_SPC_BT2020_CL:
+    case AVCOL_SPC_CHROMA_DERIVED_CL:
+      return transfer == Transfer::bt709() ? "zscale=t=linear:agamma=0,format=gbrpf32le,format=gbrp16le" : "";
+    case AVCOL_SPC_ICTCP: return transfer == Transfer::pq() ? "zscale=m=2020_ncl,format=yuv444p16le" : "";
+    default: return {};
   }
 }
 

@@ -68,6 +68,9 @@ struct ChromaWeights {
 
 // Whether each pixel has one of the colours.
 [[nodiscard]] bool is_mosaic(AVPixelFormat format);
+// The filter of FFmpeg that makes YUV or RGB that is known here of what names another matrix, with light right to
+// within a hundredth of white. Empty: none is known.
+[[nodiscard]] std::string filter_from_matrix(unsigned space, unsigned curve);
 // What a stream says of its YUV; none where it does not, or names what is not known here.
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format);

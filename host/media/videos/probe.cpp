@@ -338,8 +338,7 @@ std::vector<std::int64_t> decoded_times(const std::filesystem::path& path,
 // anywhere.
 std::vector<std::int64_t> picture_times(const std::filesystem::path& path, const OpenedVideo& opened,
                                         const std::vector<PacketTimes>& packets, Probe& result) {
-  const bool can_be_cut = (opened.format->iformat->flags & AVFMT_TS_DISCONT) != 0;
-  if (can_be_cut) result.packets.first = packets_before_key(packets);
+  if ((opened.format->iformat->flags & AVFMT_TS_DISCONT) != 0) result.packets.first = packets_before_key(packets);
   if (result.packets.first == 0 && !must_be_decoded(packets)) {
     return shown_times(packets, opened.format->streams[opened.stream]->codecpar->video_delay);
   }
@@ -397,6 +396,7 @@ void name_colours(const OpenedVideo& opened, const std::filesystem::path& path, 
   if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
       !result.pixels.is_grey && !result.matrix) {
     result.unread_matrix = matrix_name(matrix);
+    result.matrix_filter = filter_from_matrix(matrix, curve);
   }
   if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
       primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {

@@ -24,7 +24,7 @@ struct Probe {
   Upright upright;
   std::optional<YuvMatrix> matrix;  // as the file names them
   std::string unread_matrix;        // that it names, and by which nothing here makes RGB
-  std::string matrix_filter = "zscale=matrix=709";  // of FFmpeg, that makes another of it
+  std::string matrix_filter;        // of FFmpeg, that makes another of it; empty: none is known
   std::optional<CodeRange> range;
   std::optional<ChromaPlace> chroma_at;
   std::optional<Primaries> primaries;
