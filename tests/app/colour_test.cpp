@@ -138,7 +138,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
                           " shows");
     const std::string all = told(transfer, {"--ev", stops, "x.png"});
     EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
-    expect_says(all, "no pixel saturated");
+    expect_says(all, "no pixel below 0 or above 1");
     expect_says(told(transfer, {"x.exr"}),
                 "note: white is " + share + " % of the light that " + transfer + " reaches, which is 1 here; --gain ");
     EXPECT_EQ(told(transfer, {"--out-transfer", "source", "x.png"}).find(kSaid), std::string::npos);
@@ -344,7 +344,7 @@ TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   std::istringstream advice(told.err.substr(at + start.size()));
   std::vector<std::string> words(3);
   for (std::string& word : words) advice >> word;
-  expect_says(run(Words(words) + "--start 0f --exposure 1f clip.mkv shown.png").out, "no pixel saturated");
+  expect_says(run(Words(words) + "--start 0f --exposure 1f clip.mkv shown.png").out, "no pixel below 0 or above 1");
 }
 
 TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {

@@ -109,7 +109,7 @@ TEST_F(Solve, SaysWhatIsSaturated) {
                 "solved.fn"})
         .out;
   };
-  expect_says(said("0.9"), "\nthe picture: no pixel saturated\n");
+  expect_says(said("0.9"), "\nthe picture: no pixel below 0 or above 1\n");
   expect_says(said("1.5"), "\nthe picture: 100 pixels saturated above 1\n");
   const auto black =
       run({"solve", "--overwrite", "-k", "figure14.fn", "--wish", "72,22,6,6 = -1", "clip.tik", "-o", "solved.fn"});

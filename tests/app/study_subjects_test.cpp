@@ -53,7 +53,7 @@ TEST_F(StudySubjects, MayRestBeforeTheyGo) {
   const cv::Rect rest(20, 40, 14, 14);
   draw("kick", 40, [&](cv::Mat& frame, int k) { frame(rest + cv::Point(8 * std::max(0, k - 24), 0)) = 250; });
   for (const char* style : {"trail", "rear-curtain", "strobe"}) {
-    expect_says(study("kick", {"--style", style, "--overwrite"}).out, "no pixel saturated");
+    expect_says(study("kick", {"--style", style, "--overwrite"}).out, "no pixel below 0 or above 1");
     const cv::Mat ground = ground_of(7), shown = picture("study.png");
     EXPECT_LE(cv::norm(shown(rest), ground(rest), cv::NORM_INF), 40) << style;  // and some trail
   }

@@ -75,8 +75,8 @@ class ExposureTally {
   [[nodiscard]] const std::string& error_bound() const { return error_bound_; }
   [[nodiscard]] double seconds() const { return stopwatch_.seconds(); }
 
-  // `, no pixel saturated`, and so on; `saturated_below_pixels` and `saturated_above_pixels`. Nothing where all
-  // pictures hold light.
+  // `, no pixel below 0 or above 1`, and so on; `saturated_below_pixels` and `saturated_above_pixels`. Nothing where
+  // all pictures hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
   // That of the picture whose bounds are the largest.

@@ -75,7 +75,7 @@ std::string percent_text(std::uint64_t part, std::uint64_t whole) {
 
 std::string saturated_text(const Saturation& saturation) {
   const auto [below, above] = saturation;
-  if (below == 0 && above == 0) return "no pixel saturated";
+  if (below == 0 && above == 0) return "no pixel below 0 or above 1";
   if (above == 0) return format("{} saturated below 0", counted(below, "pixel"));
   if (below == 0) return format("{} saturated above 1", counted(above, "pixel"));
   return format("{} saturated below 0 and {} above 1", counted(below, "pixel"), above);

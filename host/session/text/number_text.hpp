@@ -44,7 +44,7 @@ struct WholeNumber {
 
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view name);  // `1 block`, `2 blocks`
 [[nodiscard]] std::string percent_text(std::uint64_t part, std::uint64_t whole);  // `12.5 %`
-// `12 pixels saturated below 0 and 3 above 1`, `no pixel saturated`.
+// `12 pixels saturated below 0 and 3 above 1`, `no pixel below 0 or above 1`.
 [[nodiscard]] std::string saturated_text(const Saturation& saturation);
 [[nodiscard]] std::string bytes_text(std::uint64_t bytes);  // `94 kB`, `1.49 GB`
 [[nodiscard]] std::string shape_text(const Shape& shape);   // `640 x 480 colour`
