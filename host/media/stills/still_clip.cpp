@@ -331,8 +331,8 @@ class StillClip final : public Clip {
     return true;
   }
 
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return remark_.empty() ? std::vector<std::string>{} : std::vector{remark_};
+  [[nodiscard]] std::vector<Note> remarks() const override {
+    return remark_.empty() ? std::vector<Note>{} : std::vector<Note>{remark_};
   }
 
   [[nodiscard]] bool makes_codes() const override { return info_.holds_light; }
