@@ -61,6 +61,13 @@ TEST_F(Habits, WritesBesideStillsWhatIsNoneOfThem) {
   EXPECT_EQ(answer("encode -f 25 frames again.tik")["samples"], 3);
 }
 
+// Commands' names in earlier versions are names of files first.
+TEST_F(Habits, TakesAnOldNameForAFileThatHasIt) {
+  make("plate clip.tik");
+  std::filesystem::rename(scratch_ / "frames", scratch_ / "plate");
+  EXPECT_EQ(answer("-f 25 plate plate.tik")["samples"], 3);
+}
+
 TEST_F(Habits, NamesStandardInput) {
   expect_refused("-k - -m - clip.tik", 2, "-k - and -m - would both read standard input");
   expect_refused("-k - clip.tik", 3, "standard input is empty");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "system/is_absent.hpp"
+
 namespace nutik::app {
 
 // In app/commands; completion and man beside this file.
@@ -205,8 +207,9 @@ const Command& command(CommandId id) {
 }
 
 const Command* find_command(std::string_view name) {
-  return first_command(
-      [&](const Command& entry) { return entry.name == name || (entry.old_name == name && !name.empty()); });
+  return first_command([&](const Command& entry) {
+    return entry.name == name || (entry.old_name == name && !name.empty() && is_absent(name));
+  });
 }
 
 }  // namespace nutik::app

@@ -27,7 +27,7 @@ struct Command {
   std::string_view examples;  // lines, each a command
   Run* run;
   std::string_view group = kOther;
-  std::string_view old_name = {};  // in earlier versions: still read, never shown
+  std::string_view old_name = {};  // in earlier versions: still read where no file has it, never shown
 };
 
 // The commands of the paper's forms, which need no name.
