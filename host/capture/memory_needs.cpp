@@ -1,5 +1,7 @@
 #include "capture/memory_needs.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -8,10 +10,17 @@
 namespace nutik {
 namespace {
 
-double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
+std::string amount(std::uint64_t bytes, int digits = 4) {
+  if (bytes < 100'000) return format("{} bytes", bytes);
+  const bool is_large = bytes >= 999'500'000;  // else 1000 of the smaller unit
+  return format("{:.{}g} {}", static_cast<double>(bytes) * (is_large ? 1e-9 : 1e-6), digits, is_large ? "GB" : "MB");
+}
 
-std::string amount(std::uint64_t bytes) {
-  return bytes < 100'000 ? format("{} bytes", bytes) : format("{:.4g} MB", megabytes(bytes));
+Advice way_out(std::uint64_t least) {
+  if (least <= machine_memory()) return {format("; allow more: `memory {}MB`", least / 1'000'000 + 1)};
+  return {format("; this machine has {}: encode a clip before it is exposed, or take fewer pixels (`scale`) or "
+                 "pictures",
+                 amount(machine_memory()))};
 }
 
 std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
@@ -22,7 +31,7 @@ std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
   std::string before = ": ";
   for (const MemoryPart& part : parts) {
     if (part.bytes < least.bytes() / 100) break;  // these add up to nothing worth telling
-    text += format("{}{} {:.3g} MB", std::exchange(before, ", "), part.what, megabytes(part.bytes));
+    text += format("{}{} {}", std::exchange(before, ", "), part.what, amount(part.bytes, 3));
   }
   return text;
 }
@@ -54,8 +63,10 @@ std::uint64_t MemoryNeeds::rest_of(std::uint64_t allowed) const {
 }
 
 MemoryTooLittle::MemoryTooLittle(std::uint64_t allowed, MemoryNeeds least)
-    : UsageError(text_of(allowed, least),
-                 Advice{format("; allow more: `memory {}MB`", least.bytes() / 1'000'000 + 1)}),
-      needs(std::move(least)) {}
+    : UsageError(text_of(allowed, least), way_out(least.bytes())), needs(std::move(least)) {}
+
+std::uint64_t machine_memory() {
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
 
 }  // namespace nutik

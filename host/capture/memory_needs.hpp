@@ -36,6 +36,9 @@ class MemoryNeeds {
   std::vector<MemoryPart> parts_;
 };
 
+// All that the machine has.
+[[nodiscard]] std::uint64_t machine_memory();
+
 // Less is allowed than the work takes at the least. The message says what takes it.
 struct MemoryTooLittle : UsageError {
   MemoryNeeds needs;

@@ -1,17 +1,12 @@
 #include "session/memory_budget.hpp"
 
-#include <unistd.h>
-
 #include "capture/format.hpp"
 #include "render/picture_memory.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {
 
-MemoryBudget MemoryBudget::of_machine() {
-  return {static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 2};
-}
+MemoryBudget MemoryBudget::of_machine() { return {machine_memory() / 2}; }
 
 MemoryNeeds mask_needs(const CaptureFormat& capture) { return {{"masks", 4 * capture.shape.pixel_count()}}; }
 
