@@ -96,6 +96,8 @@ TEST_F(StillSequence, NumbersAreReadAsPrintfWritesThem) {
   touch({"g 9.png", "g10.png", "h99.png", "h100.png"});
   EXPECT_EQ(listed("g%2d.png"), "g 9.png g10.png");
   EXPECT_EQ(listed("h%02d.png"), "h99.png h100.png");
+  touch({"100%_1.png", "100%_2.png"});
+  EXPECT_EQ(listed("100%_%d.png"), "100%_1.png 100%_2.png");
 }
 
 TEST_F(StillSequence, SaysWhichNumberIsMissing) {
@@ -131,6 +133,12 @@ TEST_F(StillSequence, TellsOfAHoleInAFolder) {
   EXPECT_EQ(note("cameras", {"a1.png", "a2.png", "b4.png"}), "nothing");
   EXPECT_EQ(note("words", {"dawn.png", "noon.png", "dusk5.png"}), "nothing");
   EXPECT_EQ(note("twice", {"f1.png", "f01.png", "f3.png"}), "nothing");
+  EXPECT_EQ(note("clock", {"IMG_20260812_223050.jpg", "IMG_20260812_223055.jpg", "IMG_20260812_223100.jpg"}),
+            "nothing");
+  EXPECT_EQ(note("whole-clock", {"20260812223055123.jpg", "20260812223056123.jpg", "20260812223100123.jpg"}),
+            "nothing");
+  starts(note("days", {"20260812_000058.jpg", "20260812_000059.jpg", "20260812_000061.jpg"}),
+         "days: 20260812_000060.jpg is missing");
   EXPECT_EQ(note("single", {"f7.png"}), "nothing");
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <regex>
 #include <string>
 #include <string_view>
 
@@ -87,6 +88,14 @@ std::optional<CountedName> counted_name(const fs::path& file) {
                    stem.substr(last + 1) + file.extension().string()};
   name.number = std::stoul(name.digits);
   return name;
+}
+
+// Whether the number ends with a time of day behind its date, 20260812_223055 or 20260812223055123: no minute has a
+// second 60.
+bool is_clock(const CountedName& name) {
+  static const std::regex clock(
+      R"((19|20)\d\d(0[1-9]|1[0-2])(0[1-9]|[12]\d|3[01])\D?([01]\d|2[0-3])[0-5]\d[0-5]\d(\d{3})?$)");
+  return std::regex_search(name.before + name.digits, clock);
 }
 
 // Its name with a mark in the place of each number: files of one sequence have the same, and copies, dark pictures or
@@ -256,6 +265,7 @@ std::optional<std::string> missing_still_note(const fs::path& folder, std::span<
     }
     names.push_back(std::move(*name));
   }
+  if (std::ranges::all_of(names, is_clock)) return std::nullopt;
   // Where pictures are counted in tens, 20 after 10 is no hole.
   std::uint64_t step = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t i = 1; i < names.size(); ++i) step = std::min(step, names[i].number - names[i - 1].number);
