@@ -37,10 +37,12 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files&
 // A clip with a picture that cannot be read: that is its end, or an error which says that it could be.
 class PerhapsDamaged final : public Clip {
  public:
-  PerhapsDamaged(std::unique_ptr<Clip> clip, ClipInfo info, const std::filesystem::path& path, bool ends_at_damage)
+  PerhapsDamaged(std::unique_ptr<Clip> clip, ClipInfo info, const std::filesystem::path& path, bool has_files,
+                 bool ends_at_damage)
       : clip_(std::move(clip)),
         info_(std::move(info)),
         name_(input_title(path.string())),
+        has_files_(has_files),
         ends_at_damage_(ends_at_damage) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
@@ -73,7 +75,8 @@ class PerhapsDamaged final : public Clip {
       // What has settings of its own is no damage.
       if (samples_read_ == 0 || (!ends_at_damage_ && !error.settings().empty())) throw;
       if (!ends_at_damage_) {
-        throw InputError(format("{}; the {} before it can be taken", error.what(),
+        throw InputError(format("{}; {}the {} before it can be taken", error.what(),
+                                has_files_ ? "a folder or table without it keeps the others, and " : "",
                                 samples_read_ == 1 ? "picture" : format("{} pictures", samples_read_)),
                          {Setting::end_at_damage});
       }
@@ -87,6 +90,7 @@ class PerhapsDamaged final : public Clip {
   std::unique_ptr<Clip> clip_;
   ClipInfo info_;
   std::string name_;
+  bool has_files_;  // one for each picture
   bool ends_at_damage_;
   std::uint64_t samples_read_ = 0;
   std::string reason_;
@@ -115,6 +119,8 @@ void describe_stills(ClipInfo& info, const std::filesystem::path& path, const Fi
     if (note) info.notes.emplace_back(std::move(*note));
   }
   if (is_folder) add_photron_header(info, path, stills);
+  if (!info.timing.is_known() && still_module().read_exif_times(stills.front()).start_ns)
+    info.timing.rate_doubt = "it has EXIF times, which are read where a table (.csv) lists the files";
 }
 
 void refuse_absent(const std::filesystem::path& path) {
@@ -207,8 +213,10 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOpt
   std::unique_ptr<Clip> clip = kind.open(path, files, options);
   ClipInfo info = clip->info();
   if (kind.describe != nullptr) kind.describe(info, path, files);
+  const bool has_files = files.size() > 1;
   return take_part(
-      std::make_unique<PerhapsDamaged>(std::move(clip), std::move(info), path, options.ends_at_damage), path, options);
+      std::make_unique<PerhapsDamaged>(std::move(clip), std::move(info), path, has_files, options.ends_at_damage), path,
+      options);
 }
 
 }  // namespace nutik

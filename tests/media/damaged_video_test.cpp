@@ -195,7 +195,7 @@ TEST_F(DamagedVideo, NamesThePicturesThatCanBeTaken) {
   const InputError of_third = refusal("s*.pgm"), of_first = refusal("s[23].pgm");
   const std::string third = of_third.what(), first = of_first.what();
   expect_says(third, "s2.pgm cannot be read: it was cut off");
-  expect_says(third, "; the 2 pictures before it can be taken");
+  expect_says(third, "; a folder or table without it keeps the others, and the 2 pictures before it can be taken");
   EXPECT_EQ(of_third.settings(), std::vector{Setting::end_at_damage});
   EXPECT_EQ(first.find("can be taken"), std::string::npos) << first;
   EXPECT_EQ(of_first.settings(), std::vector<Setting>());

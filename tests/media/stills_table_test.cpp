@@ -179,7 +179,13 @@ TEST(StillsTable, ReadsTimesFromExifDataWhereColumnsAreEmpty) {
   // Two pictures of one second that does not tell its fraction.
   for (const char* name : {"a.jpg", "b.jpg"}) write_jpeg(scratch / name, 20, "2026:02:28 23:59:59", "", 1, 30);
   scratch.write("stills.csv", "a.jpg\nb.jpg\n");
-  expect_clip_refused(path, {}, "these are EXIF times, which often have whole seconds only");
+  expect_clip_refused(path, {}, "these are EXIF times, which often have whole seconds only; state start_ns, or a rate");
+  // A table reads what a folder does not.
+  expect_clip_refused(scratch / "*.jpg", {}, "EXIF times, which are read where a table (.csv) lists the files");
+  write_jpeg(scratch / "b.jpg", 20, "2026:02:28 23:59:57", "", 1, 30);
+  expect_clip_refused(path, {}, "which run back where a clock was set or files are in another order; state start_ns");
+  write_jpeg(scratch / "b.jpg", 20, "", "", 1, 30);
+  expect_clip_refused(path, {}, "a.jpg has 1772323199000000000; state it for all files, or a rate");
 }
 
 }  // namespace

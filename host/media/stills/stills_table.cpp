@@ -80,6 +80,9 @@ Times column(const std::filesystem::path& table, std::span<const ListedStill> st
              std::span<const StillTimes> exif, std::optional<std::int64_t> StillTimes::*time,
              std::string_view name) {
   const bool in_table = (stills.front().times.*time).has_value();
+  const bool is_start = time == &StillTimes::start_ns;  // which a rate replaces
+  const char* const or_rate = is_start ? ", or a rate" : "";
+  const std::vector<Setting> settings(is_start ? 1 : 0, Setting::frame_rate);
   Times values;
   for (std::size_t k = 0; k < stills.size(); ++k) {
     const auto& stated = stills[k].times.*time;
@@ -96,13 +99,15 @@ Times column(const std::filesystem::path& table, std::span<const ListedStill> st
     if (value) values.push_back(*value);
     if (values.empty() || value) continue;
     fail(table, stills[k].line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(),
-                name, stills.front().file.string(), values[0]));
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}; state it for all files{}",
+                stills[k].file.string(), name, stills.front().file.string(), values[0], or_rate),
+         settings);
   }
   if (!values.empty() && values.size() != stills.size()) {
     fail(table, stills.front().line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have",
-                stills.front().file.string(), name));
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have; state it for all files{}",
+                stills.front().file.string(), name, or_rate),
+         settings);
   }
   return values;
 }
@@ -167,7 +172,9 @@ ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedS
                 stills.front().file.string()),
          {Setting::frame_rate});
   }
+  const bool from_exif = !stills.front().times.start_ns;
   ClipTiming timing;
+  timing.rate_from = from_exif ? "EXIF data" : "the table";
   for (std::size_t k = 0; k < stills.size(); ++k) {
     const std::int64_t start_ns = starts[k] - starts[0];
     const int128 reached_ns = static_cast<int128>(start_ns) + (exposures.empty() ? 0 : exposures[k]);
@@ -182,14 +189,20 @@ ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedS
       const std::int64_t free_ns =
           exposures.empty() ? timing.starts_ns.back() + 1 : timing.exposures.back().end_ns;
       if (start_ns < free_ns) {
-        const bool from_exif = !stills.front().times.start_ns;
+        const char* const why =
+            !from_exif ? ""
+            : starts[k] < starts[k - 1]
+                ? "; these are EXIF times, which run back where a clock was set or files are in another order; state "
+                  "start_ns, or a rate"
+                : "; these are EXIF times, which often have whole seconds only; state start_ns, or a rate";
         fail(
             table, stills[k].line,
             format("{} starts at {} ns, {} {} {} ({} ns from the first start){}", stills[k].file.string(),
                    starts[k], exposures.empty() ? "not after" : "before the end of",
                    stills[k - 1].file.string(),
                    format("at {} ns", exposures.empty() ? starts[k - 1] : starts[k - 1] + exposures[k - 1]),
-                   start_ns, from_exif ? "; these are EXIF times, which often have whole seconds only" : ""));
+                   start_ns, why),
+            from_exif ? std::vector{Setting::frame_rate} : std::vector<Setting>());
       }
     }
     if (exposures.empty()) {
