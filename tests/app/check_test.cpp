@@ -286,6 +286,24 @@ TEST_F(Check, ManyFindingsOfOneKindAreCounted) {
   EXPECT_EQ(kinds("-k many.fn", 0).size(), 30u);
 }
 
+TEST_F(Check, ReadsAllPicturesOfAClip) {
+  const auto message = [&](const Words& clip) {
+    const json found = findings("-f 10" + clip, 3);
+    EXPECT_EQ(found.size(), 1u);
+    EXPECT_EQ(found.at(0).at("kind"), "clip_picture");
+    return found.at(0).at("message").get<std::string>();
+  };
+  const std::string name = "frames/112.pgm", whole = file(name);
+  scratch_.write(name, whole.substr(0, whole.size() / 2));
+  expect_says(message("frames"), "a folder or table without it keeps the others, and the 12 pictures before it");
+  expect_says(make("check -f 10 frames", 3).out, "\n1 mistake\n");
+  EXPECT_EQ(kinds("-f 10 --ignore-errors frames", 0), Kinds{"clip_end"});
+  cv::imwrite((scratch_ / name).string(), cv::Mat(kClipWidth, kClipHeight, CV_8UC1, cv::Scalar::all(9)));
+  expect_says(message("frames"), "112.pgm is 80 x 120 grey of 8 bits, white code 255; the first still");
+  scratch_.write(name, whole);
+  EXPECT_EQ(kinds("-f 10 frames", 0), Kinds{});
+}
+
 TEST_F(Check, RefusesWhatMakesNoSense) {
   expect_refused(2, {{"check clip.tik clip.tik", "is one file too many"},
                      {"check -k good.fn --unmapped black", "the only choice is --unmapped zero"},

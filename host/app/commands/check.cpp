@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/run.hpp"
 #include "app/words/stated_requests.hpp"
@@ -144,8 +145,7 @@ std::string heading_text(const InputCheck& check) {
                   counted(check.capture->timeline->sample_count(), "sample"),
                   duration_text(check.domain.duration_ns)));
   } else if (check.capture) {
-    append(format("{}: {}, its length is not known before it is decoded", check.capture->name,
-                  shape_text(check.capture->format.shape)));
+    append(format("{}: {}, its length is not known", check.capture->name, shape_text(check.capture->format.shape)));
   }
   if (check.functions && !check.domain.is_capture) {
     append(format("figures are for 0 … {}, not for a capture",
@@ -229,57 +229,50 @@ void attempt(InputCheck& check, const std::string& name, const std::string& kind
   }
 }
 
-// Reads all pictures, for what only they tell. Returns how many there are: none of a recording of events, whose pixels
-// tell nothing more, and after a mistake.
-std::uint64_t read_pictures(InputCheck& check, ClipSource& source, const Options& options) {
-  Clip& clip = *source.clip;
-  if (clip.tells_changes()) return 0;
-  const std::uint64_t bytes = source.capture.sample_bytes();
-  MemoryNeeds needs;
-  needs.add("the pictures of a decoder", clip.info().decoder_bytes);
-  needs.add("a picture", bytes);
-  needs.rest_of(memory_budget(options).bytes);
-  const auto warn = [&](const Note& note) {
-    check.findings.push_back({.severity = Finding::Severity::warning,
-                              .kind = "capture_pictures",
-                              .file = source.name(),
-                              .message = note.text,
-                              .settings = note.settings});
-  };
-  std::uint64_t count = 0;
-  attempt(check, source.name(), "capture_pictures", [&] {
-    std::vector<std::byte> raster(bytes);
+// Decodes all of it. A picture that cannot be read is its end.
+void read_clip(InputCheck& check, const std::string& name, const SourceRequest& request, const Options& options) {
+  const TwofoldProgress progress(request, progress_bar("reading", options.quiet, progress_lines(options)));
+  const MemoryBudget memory = memory_budget(options);
+  ClipSource source = open_clip_source(request, memory, progress.finding);
+  check.capture = {name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
+  const MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes},
+                          {"a picture of the clip", source.capture.sample_bytes()}};
+  needs.rest_of(memory.bytes);
+  const std::uint64_t announced = source.announced_samples();
+  std::uint64_t count = announced;
+  attempt(check, name, "clip_picture", [&] {
+    std::vector<std::byte> raster(source.capture.sample_bytes());
     std::uint64_t read = 0;
-    for (; clip.read(raster); ++read) check_interruption();
-    std::optional<std::string> lost = clip.ended_early();
-    if (!lost) lost = lost_pictures_text(source.name(), source.announced_samples(), read);
-    if (lost) warn(*lost);
+    const bool tells_changes = source.clip->tells_changes();
+    while (tells_changes && read > 0 ? source.clip->read_changes().has_value() : source.clip->read(raster)) {
+      check_interruption();
+      progress.reading(++read, announced);
+    }
     count = read;
+    auto reason = source.clip->ended_early();
+    if (!reason) reason = lost_pictures_text(source.name(), announced, read);
+    if (reason) check.findings.push_back({Finding::Severity::warning, "clip_end", name, *reason});
   });
-  for (const Note& remark : clip.remarks()) {
+  for (const Note& remark : source.clip->remarks()) {
     if (remark.is_warning) {
-      warn(remark);
+      check.findings.push_back({.severity = Finding::Severity::warning,
+                                .kind = "clip_picture",
+                                .file = name,
+                                .message = remark.text,
+                                .settings = remark.settings});
     } else {
       source.notes.push_back(remark);
     }
   }
-  return count;
+  if (count == 0) return;
+  check.capture->timeline = source.timeline(count);
+  check.capture->facts = source.facts(count);
+  check.capture->notes = source.all_notes(count);
 }
 
 void read_capture(InputCheck& check, const std::string& name, const Options& options) {
   const SourceRequest request = source_request(options, name);
-  if (!is_tik(name)) {
-    ClipSource source = open_clip_source(request, memory_budget(options));
-    check.capture = {name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
-    const std::uint64_t read = read_pictures(check, source, options);
-    const std::uint64_t samples = read > 0 ? read : source.announced_samples();
-    if (samples == 0) return;
-    const Timeline timeline = source.timeline(samples);
-    check.capture->timeline = timeline;
-    check.capture->facts = source.facts(samples);
-    check.capture->notes = source.all_notes(samples);
-    return;
-  }
+  if (!is_tik(name)) return read_clip(check, name, request, options);
   tik::Reader reader(name);
   check.capture = {name, reader.format(), reader.timeline()};
   MemoryNeeds needs = camera_check_needs(reader.format());
