@@ -157,7 +157,7 @@ TEST_F(Check, ReadsTheClipsPictures) {
               {"bright.mkv: warning: light above the limited range's white was cut off in up to 100 % of a picture",
                "-c:v ffv1 darker.mkv keeps it, at half of all light\n1 warning\n"});
   expect_says(make("check --range full bright.mkv").out, "\nnothing wrong\n");
-  EXPECT_EQ(answer("check bright.mkv").at("findings").at(0).at("kind"), "capture_pictures");
+  EXPECT_EQ(answer("check bright.mkv").at("findings").at(0).at("kind"), "clip_picture");
   // It is said of pictures that are made of the clip, too; of codes that were cut off, not of the exposure's.
   for (const char* words : {"expose -q --start 0f --exposure 2f bright.mkv bright.png", "encode -q bright.mkv b.tik"})
     expect_says(make(words).err, "warning: light above the limited range's white was cut off");

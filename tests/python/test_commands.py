@@ -169,7 +169,7 @@ class Commands(support.TestCase):
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
             nutik.video(self.path("noise.tik"), self.path("film.mkv"), out_fps=1000, speed=0.1)
-        self.assertLess(time.monotonic() - sent[0], 0.5)
+        self.assertLess(time.monotonic() - sent[0], 5)
         timer.join()
         self.assertEqual([each.name for each in self.folder.iterdir() if "film" in each.name], [])
 
