@@ -75,7 +75,8 @@ TEST_F(InputKinds, WhatIsNotReadIsNamed) {
   expect_named("a.bag", bytes("#ROSBAG V2.0\n"), "a ROS bag");
   expect_named("a.seq", bytes("\xED\xFE\0\0N\0o\0r\0p\0i\0x\0"s), "a NorPix sequence");
   expect_named("a.adder", bytes("addec"), "a compressed ADΔER file, which is not read; save it uncompressed");
-  expect_named("a.hdf5", bytes("\x89HDF\r\n\x1a\n"), "an HDF5 file, which is not read; if it holds events, convert");
+  expect_named("a.hdf5", bytes("\x89HDF\r\n\x1a\n"), "an HDF5 file, which is not read; convert events to DAT");
+  expect_named("a.nii", bytes("\x5C\1\0\0"s), "a NIfTI volume, which is not read; save it as a TIFF stack");
   expect_named("a.aedat", bytes("#!AER-DAT4.0\r\n"), "an AEDAT file");
   scratch_.write("events.txt", "0.003811 96 133 0\n0.003820 96 133 1\n");
   expect_refused("encode -f 10 events.txt x.tik", 3, "events.txt is a text, and no clip");

@@ -121,13 +121,19 @@ std::string npy(const std::string& words, const std::string& values) {
 TEST(LightClip, ArraysHaveTheirPicturesBehindOneAnother) {
   const Scratch scratch;
   scratch.write("a.npy",
-                npy("{'shape': (3, 2, 4), 'fortran_order': False, 'descr': '|u1'}\n", "abcdefghijklmnopqrstuvwx"));
+                npy("{'shape': (2, 2, 6), 'fortran_order': False, 'descr': '|u1'}\n", "abcdefghijklmnopqrstuvwx"));
   const auto clip = open_test_clip(scratch / "a.npy");
-  EXPECT_EQ(clip->info().format.shape, (Shape{4, 2, 1}));
+  EXPECT_EQ(clip->info().format.shape, (Shape{6, 2, 1}));
   EXPECT_EQ(clip->info().format.transfer, Transfer::srgb());
   const auto rasters = read_all(*clip);
-  ASSERT_EQ(rasters.size(), 3u);
-  EXPECT_EQ(std::memcmp(rasters[2].data(), "qrstuvwx", 8), 0);
+  ASSERT_EQ(rasters.size(), 2u);
+  EXPECT_EQ(std::memcmp(rasters[1].data(), "mnopqrstuvwx", 12), 0);
+  // A last axis of 1 is that of grey.
+  scratch.write("grey.npy",
+                npy("{'shape': (2, 3, 1), 'fortran_order': False, 'descr': '|u1'}\n", "abcdef"));
+  const auto grey = open_test_clip(scratch / "grey.npy");
+  EXPECT_EQ(grey->info().format.shape, (Shape{3, 2, 1}));
+  EXPECT_EQ(read_all(*grey).size(), 1u);
 }
 
 TEST(LightClip, OtherArraysAreRefusedByWhatTheyAre) {
@@ -142,7 +148,9 @@ TEST(LightClip, OtherArraysAreRefusedByWhatTheyAre) {
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (4,)}", "its axes are none of [height, width]");
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 0)}", "it states 1 pictures of 0 x 2 pixels");
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4)}", "it was cut off");
-  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (18446744073709551615, 2, 2)}", "it was cut off");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (18446744073709551615, 2, 5)}", "it was cut off");
+  refused("{'descr': '|u1', 'fortran_order': False, 'shape': (4, 4, 4)}", "numpy.save(file, array[..., :3])");
+  refused("{'descr': '|u1', 'fortran_order': False, 'shape': (4, 8, 2)}", "numpy.save(file, array[..., 0])");
   refused("{'fortran_order': False, 'shape': (5, 4)}", "does not say its descr");
   refused("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 4)}", "it goes on behind its array, by 56 bytes");
 }

@@ -319,6 +319,8 @@ TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
   for (const auto& [words, is_told] :
        {std::pair("testsrc2=s=32x32:r=25:d=0.2' opaque.gif", false),
         {"color=red@0:s=32x32:r=25:d=0.2,format=rgba,split[a][b];[a]palettegen[p];[b][p]paletteuse' clear.gif", true},
+        {"testsrc2=s=32x32:r=25:d=0.2,split[a][b];[a]palettegen=reserve_transparent=0[p];[b][p]paletteuse' "
+         "-c:v rawvideo opaque.avi", false},
         {"testsrc2=s=32x32:r=25:d=0.2' -c:v libvpx-vp9 -pix_fmt yuva420p clear.webm", true}}) {
     test::make(scratch, "-f lavfi -i '" + std::string(words));
     const auto clip = open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
@@ -327,6 +329,9 @@ TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
     told.insert(told.end(), clip->info().notes.begin(), clip->info().notes.end());
     EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out", &Note::text), is_told) << words;
   }
+  scratch.write("raw", std::string(32 * 32, 'a') + std::string(1024, '\0'));
+  test::make(scratch, from_raw({32, 32, 1}, "pal8") + "-c:v rawvideo bare.nut");
+  expect_error<InputError>([&] { read_all(*open_test_clip(scratch / "bare.nut")); }, {"the file has no palette"});
 }
 
 // 32 x 32 pixels, of which so many have a luma of `code`, the others that of white.

@@ -1,5 +1,5 @@
-// NumPy's arrays in files (.npy), as pictures: [height, width], [height, width, 3], or several of them behind one
-// another, with an axis in front. https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html has the bytes.
+// NumPy's arrays in files (.npy), as pictures: [height, width], which may have a last axis of 1 or 3, or several of them
+// behind one another, with an axis in front. https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html has the bytes.
 
 #include <algorithm>
 #include <bit>
@@ -45,8 +45,9 @@ ValueType type_of(std::string_view word, const std::string& name) {
   }
   const bool is_whole = word.size() > 1 && (word[1] == 'u' || word[1] == 'i');
   fail(name, format("its values are '{}'; uint8, uint16, float32 and float64 in this machine's order are read: "
-                    "numpy.save(file, array.astype('{}'))",
-                    word.substr(0, word.find('\'')), is_whole ? "uint16" : "float32"));
+                    "numpy.save(file, array{}'))",
+                    word.substr(0, word.find('\'')),
+                    is_whole ? ".clip(0, 65535).astype('uint16" : ".astype('float32"));
 }
 
 // `(2, 3), …`
@@ -104,8 +105,14 @@ NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name
   if (!behind_key(words, "fortran_order", name).starts_with("False"))
     fail(name, "its columns lie behind one another; write numpy.ascontiguousarray(array)");
   std::vector<std::uint64_t> axes = axes_of(behind_key(words, "shape", name));
-  front.shape.channels = axes.size() > 2 && axes.back() == 3 ? 3 : 1;
-  const std::size_t own = front.shape.channels == 3 ? 3 : 2;
+  const std::uint64_t last = axes.size() > 2 ? axes.back() : 0;
+  if (last == 2 || last == 4) {
+    fail(name, format("its last axis is {}: grey and RGB are read, numpy.save(file, array[..., {}])", last,
+                      last == 4 ? ":3" : "0"));
+  }
+  if (last == 1) axes.pop_back();
+  front.shape.channels = last == 3 ? 3 : 1;
+  const std::size_t own = last == 3 ? 3 : 2;
   if (axes.size() < own || axes.size() > own + 1)
     fail(name, "its axes are none of [height, width], [height, width, 3] or several of these");
   if (axes.size() > own) front.pictures = axes.front();
@@ -158,7 +165,7 @@ void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) {
 constinit const inputs::InputKind inputs::kNumpy{
     .name = "NumPy", .starts = {kMagic}, .extensions = " .npy ",
     .said = {"none", "none", "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
-             "its first axis of four, or of three whose last is not 3"},
+             "an axis before height and width; a last one of 1 or 3 is channels"},
     .has_tags = true, .read = read_npy, .places = numbers_of_pictures,
     .written = {{.extension = ".npy", .holds_light = true, .holds_double = true, .is_silent = true, .write = write_npy,
                  .write_layers = write_npy_layers}}};

@@ -147,13 +147,22 @@ int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
   return static_cast<int>(std::clamp<std::uint64_t>(pictures - std::min(pictures, kept), 1, cores));
 }
 
-// Whether a picture of a GIF has a pixel that is transparent.
-bool is_transparent(const AVFrame& frame) {
-  if (frame.format != AV_PIX_FMT_RGB32) return false;
+// Whether a picture of a GIF, or with a palette, has a pixel that is transparent. Throws InputError naming `name` where
+// the palette has no colour.
+bool is_transparent(const AVFrame& frame, const std::string& name) {
+  const bool has_palette = frame.format == AV_PIX_FMT_PAL8;
+  if (!has_palette && frame.format != AV_PIX_FMT_RGB32) return false;
+  std::array<std::uint32_t, 256> palette{};
+  if (has_palette) {
+    std::memcpy(palette.data(), frame.data[1], sizeof palette);
+    if (std::ranges::none_of(palette, [](std::uint32_t colour) { return (colour & 0xFFFFFF) != 0; }))
+      throw InputError(format("{}: its pictures are numbers of colours, and the file has no palette that tells these: "
+                              "save it with one of greys, as grey (Y800) or as TIFF", name));
+  }
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* const row = frame.data[0] + std::ptrdiff_t{y} * frame.linesize[0];
     for (int x = 0; x < frame.width; ++x) {
-      if (row[4 * x + 3] != 255) return true;
+      if ((has_palette ? palette[row[x]] >> 24 : row[4 * x + 3]) != 255) return true;
     }
   }
   return false;
@@ -232,7 +241,7 @@ class LibavClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
-    if (decoder_.stream().codecpar->codec_id == AV_CODEC_ID_GIF) has_transparent_ |= is_transparent(*frame_);
+    if (is_seen_as_transparent(*decoder_.stream().codecpar)) has_transparent_ |= is_transparent(*frame_, name_);
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
     const double above = converter_.share_above_white();
@@ -451,7 +460,7 @@ class LibavClip final : public Clip {
   std::optional<FieldOrder> fields_;  // as the container says of all frames
   bool has_interlaced_ = false;       // a frame that says so itself
   std::uint64_t other_order_ = 0;     // frames that say another one themselves
-  bool has_transparent_ = false;      // a GIF's picture
+  bool has_transparent_ = false;      // a picture whose pixels tell it
   std::uint64_t pictures_above_white_ = 0;  // that have at least kToldShare
   double most_above_white_ = 0;             // a picture's share
   std::string darker_filter_;

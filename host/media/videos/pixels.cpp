@@ -242,6 +242,10 @@ bool is_mosaic(AVPixelFormat format) {
   return (av_pix_fmt_desc_get(format)->flags & AV_PIX_FMT_FLAG_BAYER) != 0;
 }
 
+bool is_seen_as_transparent(const AVCodecParameters& codec) {
+  return codec.codec_id == AV_CODEC_ID_GIF || codec.format == AV_PIX_FMT_PAL8;
+}
+
 bool is_yuv(AVPixelFormat format) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
   return pixels.nb_components >= 3 &&

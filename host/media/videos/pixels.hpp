@@ -68,6 +68,8 @@ struct ChromaWeights {
 
 // Whether each pixel has one of the colours.
 [[nodiscard]] bool is_mosaic(AVPixelFormat format);
+// Whether its decoder names a format with transparency whatever its pictures have: their pixels tell.
+[[nodiscard]] bool is_seen_as_transparent(const AVCodecParameters& codec);
 // The filter of FFmpeg that makes YUV or RGB that is known here of what names another matrix, with light right to
 // within a hundredth of white. Empty: none is known.
 [[nodiscard]] std::string filter_from_matrix(unsigned space, unsigned curve);

@@ -432,11 +432,11 @@ void note_left_out(const OpenedVideo& opened, const std::filesystem::path& path,
                "makes a clip of another",
                films, opened.stream));
   }
-  // Every GIF is decoded with transparency, whether its pictures have any, and no VP9.
+  // No VP9 is decoded with transparency.
   const bool has_alpha = (av_pix_fmt_desc_get(result.pixel_format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
   const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
   const bool says_so = mode != nullptr && mode->value == std::string_view("1");
-  if ((has_alpha && stream.codecpar->codec_id != AV_CODEC_ID_GIF) || says_so)
+  if ((has_alpha && !is_seen_as_transparent(*stream.codecpar)) || says_so)
     result.notes.emplace_back(left_out_note(kTransparency));
 }
 
