@@ -1,5 +1,6 @@
-// NumPy's arrays in files (.npy), as pictures: [height, width], which may have a last axis of 1 or 3, or several of them
-// behind one another, with an axis in front. https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html has the bytes.
+// NumPy's arrays in files (.npy), as pictures: [height, width], which may have a last axis of 1 or 3, or several behind
+// one another, with an axis in front. https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html has the
+// bytes.
 
 #include <algorithm>
 #include <bit>
