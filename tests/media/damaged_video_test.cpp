@@ -56,6 +56,36 @@ TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
   EXPECT_GT(refused, 20);
 }
 
+// Decoders conceal it, and tell of that from threads of their own.
+TEST_F(DamagedVideo, IsRefusedEachTimeOrNever) {
+  NEEDS_FFMPEG();
+  for (const auto& [codec, least] : {std::pair("libx264", 10), {"libx265 -x265-params log-level=none", 1}}) {
+    test::make(scratch_, "-f lavfi -i testsrc2=s=320x240:r=30:d=1 -c:v " + std::string(codec) + " whole.mkv");
+    const std::string whole = read_file(scratch_ / "whole.mkv");
+    Random random(3);
+    int refused = 0;
+    for (int damage = 0; damage < 20; ++damage) {
+      std::string damaged = whole;
+      // Behind the first picture and what tells of the others.
+      const auto at = static_cast<std::size_t>(random.whole(static_cast<std::int64_t>(whole.size()) / 2,
+                                                            static_cast<std::int64_t>(whole.size()) - 1000));
+      for (std::size_t i = 0; i < 40; ++i) damaged[at + i] = static_cast<char>(random.whole(0, 255));
+      const auto path = scratch_.write("damaged.mkv", damaged);
+      int times = 0;
+      for (int time = 0; time < 5; ++time) {
+        try {
+          read_all(*open_test_clip(path));
+        } catch (const InputError&) {
+          ++times;
+        }
+      }
+      EXPECT_TRUE(times == 0 || times == 5) << codec << ", byte " << at << ": " << times << " times";
+      refused += times > 0 ? 1 : 0;
+    }
+    EXPECT_GE(refused, least) << codec;
+  }
+}
+
 // A container's reader goes on behind what it does not understand, and nobody else knows of the pictures there.
 TEST_F(DamagedVideo, WithAHoleIsRefused) {
   NEEDS_FFMPEG();

@@ -4,14 +4,19 @@
 #include <cstdarg>
 #include <cstdio>
 #include <set>
+#include <string_view>
 
 #include "media/videos/libav.hpp"
 
 namespace nutik::videos {
 namespace {
 
+// Of parts of a picture that a decoder fills, it tells by the picture's flags, too, but sets them too late for pictures
+// that another thread hands out.
+constexpr const char* kConcealing = "concealing ";
+// What leading pictures give rise to.
 constexpr const char* kMissingReferences[] = {"Missing reference picture", "reference picture missing during reorder",
-                                              "co located POCs unavailable"};
+                                              "co located POCs unavailable", kConcealing};
 
 // FFmpeg has one log for a process, and decoders of other libraries write to it, too.
 struct Listeners {
@@ -39,7 +44,7 @@ void* log_of(const void* context) {
 }
 
 void take_log(void* context, int level, const char* form, va_list values) {
-  if (level > AV_LOG_ERROR) return;
+  if (level > AV_LOG_ERROR && !std::string_view(form).starts_with(kConcealing)) return;
   void* const log = log_of(context);
   if (log == nullptr) return;
   char text[512];

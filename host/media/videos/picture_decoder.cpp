@@ -19,6 +19,8 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   codec_.reset(allocated(avcodec_alloc_context3(decoder)));
   codec_->thread_count = threads;
   codec_->err_recognition = AV_EF_CRCCHECK;
+  // Else a slice that cannot be parsed leaves the picture as it was, without a word.
+  if (parameters.codec_id == AV_CODEC_ID_HEVC) codec_->err_recognition |= AV_EF_EXPLODE;
   if (wanted == Wanted::times) codec_->skip_loop_filter = codec_->skip_idct = AVDISCARD_ALL;
   codec_->pkt_timebase = stream().time_base;
   damage_->listen_to(codec_->opaque);
