@@ -20,6 +20,14 @@
 #include "tik/header.hpp"
 
 namespace nutik {
+std::optional<Recipe> recipe_in(const std::filesystem::path& file) {
+  try {
+    return is_picture_name(file) ? read_recipe(file) : std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 namespace {
 
 bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
@@ -27,15 +35,6 @@ bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::
 bool is_picture_content(const std::string& bytes) {
   const auto begins = [&](const inputs::InputKind* kind) { return kind->begins(bytes); };
   return std::ranges::any_of(inputs::kStills, begins) && !is_tik_content(bytes);
-}
-
-// Takes any file. What is damaged carries none.
-std::optional<Recipe> recipe_in(const std::filesystem::path& file) {
-  try {
-    return is_picture_name(file) ? read_recipe(file) : std::nullopt;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
 }
 
 // A grey PGM or PNG that does not carry how it was exposed.

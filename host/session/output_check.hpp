@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "capture/error.hpp"
+#include "media/writers/recipe.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik {
@@ -32,6 +34,9 @@ void check_mask_output(const std::filesystem::path& output, std::span<const std:
 // check_output() for a picture of 8-bit codes; throws, too, where its file cannot hold so many channels.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
                           std::span<const std::string> inputs, Replacing replacing = Replacing::all);
+
+// The recipe that any file carries: none where there is no file, no picture, or a damaged one.
+[[nodiscard]] std::optional<Recipe> recipe_in(const std::filesystem::path& file);
 
 // Notes the pictures that are there under the numbers from `count` on: a series of so many does not replace them.
 void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,

@@ -304,6 +304,18 @@ TEST_F(Check, ReadsAllPicturesOfAClip) {
   EXPECT_EQ(kinds("-f 10 frames", 0), Kinds{});
 }
 
+// An edit list of no length, as where an editor cut all away.
+TEST_F(Check, AClipThatShowsNoPictureIsAMistake) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:r=25:d=0.2 -c:v mpeg4 -bf 0 none.mp4");
+  std::string film = file("none.mp4");
+  const auto edits = film.find("elst");
+  ASSERT_NE(edits, film.npos);
+  film.replace(edits + 12, 4, 4, '\0');
+  scratch_.write("none.mp4", film);
+  expect_says(make("check none.mp4", 3).out, "shows no picture; if its edit list leaves them all out, ffmpeg -ignore");
+}
+
 TEST_F(Check, RefusesWhatMakesNoSense) {
   expect_refused(2, {{"check clip.tik clip.tik", "is one file too many"},
                      {"check -k good.fn --unmapped black", "the only choice is --unmapped zero"},

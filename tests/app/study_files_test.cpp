@@ -62,6 +62,20 @@ TEST_F(StudyFiles, ReplaceNoneOfAnotherPicture) {
   study("one.jpg");
 }
 
+// A camera's files differ in nothing but their extensions, and outputs that nobody names are called alike.
+TEST_F(StudyFiles, ReplaceNoneOfAnotherClip) {
+  std::filesystem::copy_file(scratch_ / "clip.tik", scratch_ / "clip.mov.tik");
+  make("study clip.tik", 0);
+  std::filesystem::rename(scratch_ / "clip-study.png", scratch_ / "clip.mov-study.png");
+  const std::string before = file("clip.mov-study.png");
+  for (const char* words : {"study clip.mov.tik", "--start 3f --exposure 1f clip.mov.tik -o clip.mov-study.png"}) {
+    const bool is_named = std::string_view(words).starts_with("--");
+    expect_says(make(words, is_named ? 0 : 2).err,
+                is_named ? "" : "clip.mov-study.png is there already, made of clip.tik, and is not replaced");
+    EXPECT_EQ(file("clip.mov-study.png") == before, !is_named);
+  }
+}
+
 // Wherever a study is ended, the next one goes through; what was changed by hand since is still refused.
 TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
   const std::string library =

@@ -249,6 +249,7 @@ void read_clip(InputCheck& check, const std::string& name, const SourceRequest& 
       progress.reading(++read, announced);
     }
     count = read;
+    if (count == 0) throw InputError("has no picture");
     auto reason = source.clip->ended_early();
     if (!reason) reason = lost_pictures_text(source.name(), announced, read);
     if (reason) check.findings.push_back({Finding::Severity::warning, "clip_end", name, *reason});

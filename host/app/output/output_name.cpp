@@ -10,7 +10,6 @@
 #include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
-#include "media/writers/recipe.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/delay_request.hpp"
 #include "session/requests/named_inputs.hpp"
@@ -61,7 +60,14 @@ std::filesystem::path output_name(const Options& options, std::string_view comma
   if (const auto stated = stated_output(options, command)) return *stated;
   std::string name = sequence_name(options.operands.front());
   std::ranges::replace(name, '%', '_');  // nobody asked for numbers
-  return name + std::string(behind);
+  name += behind;
+  const auto recipe = options.overwrite ? std::nullopt : recipe_in(name);
+  if (recipe && recipe->capture.name != input_name(options.operands.front())) {
+    throw UsageError(format("{} is there already, made of {}, and is not replaced; choose another name, or replace it "
+                            "with --overwrite",
+                            name, recipe->capture.name));
+  }
+  return name;
 }
 
 bool writes_to_standard_output(const Options& options) {
@@ -80,15 +86,10 @@ static Recipe::Input known_map(const std::filesystem::path& map) {
 // Whether the picture's recipe knows this very file: a name alone may be that of another file.
 static bool is_map_of(const std::filesystem::path& picture, const std::filesystem::path& map) {
   std::error_code unknown;
-  if (!is_picture_name(picture) || is_absent(picture) || !std::filesystem::is_regular_file(map, unknown) ||
-      led_to(map) != led_to(picture.parent_path() / map.filename()))
+  if (!std::filesystem::is_regular_file(map, unknown) || led_to(map) != led_to(picture.parent_path() / map.filename()))
     return false;
-  try {
-    const auto recipe = read_recipe(picture);
-    return recipe && recipe->bounds_map == known_map(map);
-  } catch (const InputError&) {
-    return false;
-  }
+  const auto recipe = recipe_in(picture);
+  return recipe && recipe->bounds_map == known_map(map);
 }
 
 BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view who) {

@@ -239,7 +239,12 @@ class LibavClip final : public Clip {
   }
 
   bool read(std::span<std::byte> raster) override {
-    if (!next_picture()) return false;
+    if (!next_picture()) {
+      if (frames_read_ > 0) return false;
+      throw InputError(format("{} shows no picture; if its edit list leaves them all out, ffmpeg -ignore_editlist 1 -i "
+                              "CLIP -c:v ffv1 film.mkv makes a clip of them",
+                              name_));
+    }
     check_whole();
     if (is_seen_as_transparent(*decoder_.stream().codecpar)) has_transparent_ |= is_transparent(*frame_, name_);
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
