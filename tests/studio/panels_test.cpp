@@ -15,7 +15,6 @@
 #include <QSplitter>
 #include <QTextBrowser>
 #include <QToolButton>
-#include <QToolTip>
 #include <QTreeWidget>
 
 #include "studio/regions/region_edits.hpp"
@@ -461,7 +460,21 @@ TEST_F(PanelsTest, NothingOfTheToolBarIsHidden) {
   auto& start = child<QLineEdit>("start");
   start.selectAll();
   QTest::keyClicks(&start, "early\r");
-  EXPECT_TRUE(QToolTip::text().startsWith("Start: 'early' is no time")) << QToolTip::text().toStdString();
+  EXPECT_TRUE(window_.notice().isVisible());
+  auto* heard = QAccessible::queryAccessibleInterface(window_.notice().findChild<QLabel*>());
+  EXPECT_EQ(heard->text(QAccessible::Name), window_.notice().text());
+  EXPECT_TRUE(window_.notice().text().startsWith("Start: 'early' is no time")) << window_.notice().text().toStdString();
+  start.selectAll();
+  QTest::keyClicks(&start, "0s\r");
+  EXPECT_FALSE(window_.notice().isVisible());
+}
+
+TEST_F(PanelsTest, ARegionIsAloneByAKey) {
+  open_clip();
+  for (const bool is_alone : {true, false}) {
+    QTest::keyClick(&window_, Qt::Key_O, Qt::ControlModifier | Qt::ShiftModifier);
+    EXPECT_EQ(document().solo() == document().selected_tag(), is_alone);
+  }
 }
 
 // The picture is the largest thing, and panels that are folded stay so.

@@ -107,7 +107,9 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   av_dict_free(&settings);
   if (code < 0) {
     avio_closep(&bytes);
-    if (opened.log->said().value_or("").find("moov atom not found") != std::string::npos) {
+    const std::string front = first_bytes(path);
+    const bool is_mp4 = front.size() >= 8 && (front.substr(4, 4) == "ftyp" || front.substr(4, 4) == "mdat");
+    if (is_mp4 && opened.log->said().value_or("").find("moov atom not found") != std::string::npos) {
       throw InputError(
           format("{} cannot be read: its index (moov) is missing, which cameras write when a recording ends; "
                  "programs that repair such files make it anew from another recording of the same camera",

@@ -198,7 +198,13 @@ void Canvas::keep_in_sight(QPointF picture) {
   view_moved();
 }
 
+void Canvas::focusInEvent(QFocusEvent* event) {
+  is_framed_ = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason;
+  QWidget::focusInEvent(event);
+}
+
 void Canvas::focusOutEvent(QFocusEvent* event) {
+  is_framed_ = false;
   if (is_key_stroke_) end_key_stroke();
   QWidget::focusOutEvent(event);
 }

@@ -264,10 +264,19 @@ void Canvas::follow_mask(Change what) {
 
 void Canvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
+  paint(painter, event->region());
+  if (!is_framed_) return;
+  painter.resetTransform();
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(palette().color(QPalette::Highlight), 2));
+  painter.drawRect(rect().adjusted(1, 1, -1, -1));
+}
+
+void Canvas::paint(QPainter& painter, const QRegion& region) {
   QRectF place = view_.place();
   if (!reduced_.isNull()) place.setSize(QSizeF(reduced_size_) * view_.zoom());
   const QRect covered = place.toAlignedRect().adjusted(1, 1, -1, -1);
-  for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
+  for (const QRect& around : region - (image_.isNull() ? QRect() : covered))
     painter.fillRect(around, kSurround);
   if (image_.isNull()) return;  // it comes at once
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);

@@ -132,6 +132,7 @@ class Canvas : public QWidget {
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   QSize sizeHint() const override { return {640, 400}; }
 
@@ -141,6 +142,7 @@ class Canvas : public QWidget {
   void update_pixels(const QRectF& pixels);  // of the picture
   void update_tool(QPointF before);          // of the pointer
   void follow_mask(Change what);
+  void paint(QPainter& painter, const QRegion& region);
   void paint_regions(QPainter& painter);
   void paint_cross(QPainter& painter, QPointF at) const;
   void paint_solo(QPainter& painter);
@@ -171,6 +173,7 @@ class Canvas : public QWidget {
   bool is_first_look_ = false, is_awaiting_ = false;
   bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
   bool is_by_keys_ = false;     // the pointer was moved by them last
+  bool is_framed_ = false;      // keys led the focus here, which is seen then
   bool is_key_stroke_ = false;  // begun by a key, which also ends it
   Qt::KeyboardModifiers stroke_keys_;
 };

@@ -4,7 +4,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QToolTip>
 
 #include "studio/time/time_axis.hpp"
 #include "studio/time/time_strip.hpp"
@@ -42,7 +41,7 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
   out_ = add_field("out", tr("&Out"), tr("Where work ends, or nothing. %1").arg(time),
                    [this](const QString& text) { return take_mark(text, &Document::set_mark_out); });
   said_->setObjectName("said");
-  said_->setAccessibleName(tr("Exposed pictures"));
+  said_->setAccessibleDescription(tr("Exposed pictures"));
   said_->setTextFormat(Qt::PlainText);
   said_->setMinimumWidth(0);
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -71,7 +70,8 @@ QLineEdit* TimeFields::add_field(const char* object, const QString& name, const 
   field->setAccessibleName(QString(name).remove('&'));
   field->setAccessibleDescription(help);
   field->setObjectName(object);
-  field->setFixedWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
+  field->setMaximumWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
+  field->setMinimumWidth(field->fontMetrics().horizontalAdvance("888 ms") + 18);
   layout()->addWidget(label);
   layout()->addWidget(field);
   // Pressed Return or left: both mean it.
@@ -110,13 +110,19 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
   said_->setWordWrap(true);  // it is read whole
   said_->setText(tr("%1: %2").arg(field.accessibleName(), mistake));
   said_->setToolTip(said_->text());
-  if (said_->width() < said_->fontMetrics().averageCharWidth() * 24)  // a small window has no room for it
-    QToolTip::showText(field.mapToGlobal(QPoint(0, field.height())), said_->text(), &field);
   field.setAccessibleDescription(mistake);
+  QPalette wrong = palette();
+  wrong.setColor(QPalette::Text, TimeColours::of(palette()).warning);
+  field.setPalette(wrong);
+  const QRect room(0, 0, said_->width(), height());
+  const QRect taken = said_->fontMetrics().boundingRect(room, Qt::TextWordWrap, said_->text());
+  if (!room.contains(taken.translated(room.topLeft() - taken.topLeft()))) Q_EMIT refused(said_->text());
 }
 
 void TimeFields::accept(QLineEdit& field) {
   field.setText(field.text());  // from here on undoing it is the window's
+  field.setPalette({});
+  Q_EMIT refused({});
   field.setAccessibleDescription(field.toolTip());
   show_values();
 }

@@ -20,6 +20,10 @@ class TimeFields : public QWidget {
  public:
   explicit TimeFields(Document& document, QWidget* parent = nullptr);
 
+ Q_SIGNALS:
+  // What is wrong and has no room beside the fields; empty once it is mended.
+  void refused(const QString& mistake);
+
  protected:
   void changeEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;

@@ -1093,6 +1093,10 @@ Mit wie vielen Bildern pro Sekunde wurde gefilmt?</translation>
         <translation>Über das &amp;Intervall belichten</translation>
     </message>
     <message>
+        <source>&amp;Solo: darken the others</source>
+        <translation>&amp;Solo: andere abdunkeln</translation>
+    </message>
+    <message>
         <source>Select what &amp;moves</source>
         <translation>&amp;Bewegtes auswählen</translation>
     </message>
@@ -1455,10 +1459,6 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
 </context>
 <context>
     <name>nutik::studio::Notice</name>
-    <message>
-        <source>Message</source>
-        <translation>Meldung</translation>
-    </message>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>

@@ -367,7 +367,7 @@ QString MainWindow::suggested_picture() const {
 void MainWindow::fill_recent(QMenu& menu) {
   menu.clear();
   for (const RecentFile& file : recent_files()) {
-    QAction* action = menu.addAction(file.path);
+    QAction* action = menu.addAction(QString(file.path).replace('&', "&&"));
     action->setEnabled(QFileInfo::exists(file.path) || is_pattern(file.path));
     connect(action, &QAction::triggered, this, [this, path = file.path] {
       if (may_leave()) open(path);

@@ -110,7 +110,16 @@ void MainWindow::build_window() {
   auto* time_column = new QVBoxLayout(time_);
   time_column->setContentsMargins(0, 0, 0, 0);
   time_column->setSpacing(1);
-  time_column->addWidget(new TimeFields(document_));
+  auto* fields = new TimeFields(document_);
+  connect(fields, &TimeFields::refused, this, [this, last = QString()](const QString& mistake) mutable {
+    if (!mistake.isEmpty()) {
+      notice_->say(Notice::Kind::error, mistake);
+    } else if (!last.isEmpty() && notice_->text() == last) {
+      notice_->clear();
+    }
+    last = mistake;
+  });
+  time_column->addWidget(fields);
   time_column->addWidget(strip);
   time_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 

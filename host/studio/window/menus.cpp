@@ -233,6 +233,10 @@ void MainWindow::build_region_menu() {
         [this] { move_region(document_, document_.selected_tag(), Move::down); });
   offer(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
         [this] { expose_over_boxcar(document_, document_.selected_tag()); });
+  offer(menu, tr("&Solo: darken the others"), Qt::CTRL | Qt::SHIFT | Qt::Key_O, [this] {
+    const std::uint8_t tag = document_.selected_tag();
+    document_.set_solo(document_.solo() == tag ? std::nullopt : std::optional(tag));
+  });
   menu.addSeparator();
   offer(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
   offer(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });

@@ -1,5 +1,6 @@
 #include "studio/window/status_line.hpp"
 
+#include <QAccessible>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -23,7 +24,6 @@ Notice::Notice(QWidget* parent) : QFrame(parent), text_(new QLabel(this)), way_o
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  text_->setAccessibleName(tr("Message"));
   way_out_->setObjectName("way_out");
   connect(way_out_, &QToolButton::clicked, this, [this] {
     const auto act = std::move(act_);
@@ -49,12 +49,17 @@ void Notice::say(Kind kind, const QString& text, const QString& label, std::func
   for (const auto role : {QPalette::Window, QPalette::Button}) colours.setColor(role, ground);
   for (const auto role : {QPalette::WindowText, QPalette::ButtonText, QPalette::Text})
     colours.setColor(role, QColor(240, 240, 240));
+  colours.setColor(QPalette::Highlight, QColor(240, 240, 240));  // what has the focus is framed by it, too
+  colours.setColor(QPalette::HighlightedText, ground);
   setPalette(colours);
   text_->setText(text);
   way_out_->setText(label);
   way_out_->setVisible(!label.isEmpty());
   act_ = std::move(way_out);
   setVisible(!text.isEmpty());
+  if (text.isEmpty()) return;
+  QAccessibleEvent said(text_, QAccessible::Alert);  // a screen reader reads the label, whose text is its name
+  QAccessible::updateAccessibility(&said);
 }
 
 void Notice::clear() { say(Kind::note, {}); }
@@ -73,7 +78,7 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
       cancel_(new QToolButton(this)),
       shown_(jobs.front()) {
   pixel_->setObjectName("pixel");
-  pixel_->setAccessibleName(tr("Pixel under the pointer"));
+  pixel_->setAccessibleDescription(tr("Pixel under the pointer"));
   arithmetic_->setObjectName("arithmetic");
   saturated_->setObjectName("saturated");
   milliseconds_->setObjectName("milliseconds");
