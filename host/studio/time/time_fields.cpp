@@ -70,8 +70,7 @@ QLineEdit* TimeFields::add_field(const char* object, const QString& name, const 
   field->setAccessibleName(QString(name).remove('&'));
   field->setAccessibleDescription(help);
   field->setObjectName(object);
-  field->setMaximumWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
-  field->setMinimumWidth(field->fontMetrics().horizontalAdvance("888 ms") + 18);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
   layout()->addWidget(label);
   layout()->addWidget(field);
   // Pressed Return or left: both mean it.
@@ -97,7 +96,6 @@ void TimeFields::show_values() {
   normal.setColor(QPalette::WindowText, TimeColours::of(palette()).label);
   said_->setPalette(normal);
   const QString text = interval_text(document_.boxcar(), facts->timeline);
-  said_->setWordWrap(false);
   said_->setText(said_->fontMetrics().elidedText(text.mid(text.lastIndexOf(", ") + 2), Qt::ElideRight,
                                                  said_->width()));
   said_->setToolTip(text);
@@ -107,16 +105,15 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
   QPalette warning = palette();
   warning.setColor(QPalette::WindowText, TimeColours::of(palette()).warning);
   said_->setPalette(warning);
-  said_->setWordWrap(true);  // it is read whole
-  said_->setText(tr("%1: %2").arg(field.accessibleName(), mistake));
-  said_->setToolTip(said_->text());
+  const QString text = tr("%1: %2").arg(field.accessibleName(), mistake);
+  said_->setToolTip(text);
   field.setAccessibleDescription(mistake);
   QPalette wrong = palette();
   wrong.setColor(QPalette::Text, TimeColours::of(palette()).warning);
   field.setPalette(wrong);
-  const QRect room(0, 0, said_->width(), height());
-  const QRect taken = said_->fontMetrics().boundingRect(room, Qt::TextWordWrap, said_->text());
-  if (!room.contains(taken.translated(room.topLeft() - taken.topLeft()))) Q_EMIT refused(said_->text());
+  const bool has_room = said_->fontMetrics().horizontalAdvance(text) <= said_->width();
+  said_->setText(has_room ? text : QString());
+  if (!has_room) Q_EMIT refused(text);
 }
 
 void TimeFields::accept(QLineEdit& field) {
