@@ -116,6 +116,7 @@ struct Reading {
   std::optional<LightCodes> curve;  // likewise
   RawDeveloper raws = {};
   std::optional<TiffReader> tiff = std::nullopt;  // of the page read last
+  std::filesystem::path tiff_file = {};           // likewise
   TiffStory story = {};                           // of the first file
 };
 
@@ -223,7 +224,11 @@ Still read_exr_still(const Page& page, Reading& reading) {
 }
 
 Still read_tiff_still(const Page& page, Reading& reading) {
-  if (page.number == 1) reading.tiff.emplace(page.file);
+  if (page.number == 1 || reading.tiff_file != page.file) {
+    reading.tiff.emplace(page.file);
+    reading.tiff_file = page.file;
+  }
+  reading.tiff->pass_to(page.number);
   std::optional<FilePicture> read = reading.tiff->next();
   if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
   return still_of(std::move(*read), reading, page);

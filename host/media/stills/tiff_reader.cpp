@@ -450,12 +450,24 @@ void TiffReader::follow_story() {
   page_count_ = story_.pictures;
 }
 
+bool TiffReader::find_next() {
+  if (pages_read_ == 0 || is_in_one_) return true;
+  TIFF* const handle = file_->handle.get();
+  do {
+    if (TIFFReadDirectory(handle) == 0) return false;
+  } while (!is_moment_[TIFFCurrentDirectory(handle)]);
+  return true;
+}
+
+void TiffReader::pass_to(std::uint64_t page) {
+  for (; pages_read_ + 1 < page; ++pages_read_) find_next();
+}
+
 std::optional<FilePicture> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
   const std::string page_name = format("page {} of {}", pages_read_ + 1, name_);
   TIFF* const handle = file_->handle.get();
-  bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
-  while (found && !is_in_one_ && !is_moment_[TIFFCurrentDirectory(handle)]) found = TIFFReadDirectory(handle) != 0;
+  const bool found = find_next();
   std::optional<FilePicture> page;
   if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
   if (!found || !file_->trouble.empty()) {

@@ -49,10 +49,14 @@ class TiffReader {
   // That tag may also be the largest value that happens to occur; so it counts only where it is 2^n - 1, all that n
   // bits can hold.
   [[nodiscard]] std::optional<FilePicture> next();
+  // Passes over the pages before that one, from 1, none of which is read.
+  void pass_to(std::uint64_t page);
 
  private:
   struct File;
 
+  // The directory of the next page; false where it cannot be read.
+  bool find_next();
   void leave_copies_out();
   // Throws where the description says of more than moments; makes pages of what it says that no directory does.
   void follow_story();
