@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
@@ -19,6 +20,29 @@ void write_stills(const Scratch& scratch, const std::vector<Picture>& stills) {
     scratch.write("f" + std::to_string(k) + (stills[k].shape.channels == 1 ? ".pgm" : ".ppm"),
                   netpbm_file(stills[k], false));
   }
+}
+
+// A TIFF with a smaller copy behind each page.
+std::string with_copies(const std::vector<Picture>& stills) {
+  std::vector<Picture> pages;
+  for (const Picture& still : stills) {
+    pages.push_back(still);
+    pages.push_back(random_stills({5, 3, 1}, still.white_code, 1, 2).front());
+  }
+  std::string file = tiff_file(pages, {.tags = {{254, {4, 1, 0}}}});
+  // NewSubfileType, the first entry of a directory, is 1 of each second one.
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, file.data() + at, sizeof number);
+    return number;
+  };
+  constexpr std::size_t kEntry = 12;
+  std::size_t at = number_at(4);
+  for (int page = 0; at != 0; ++page) {
+    file[at + 2 + 8] = static_cast<char>(page % 2);
+    at = number_at(at + 2 + kEntry * static_cast<unsigned char>(file[at]));
+  }
+  return file;
 }
 
 std::uint32_t code_of(std::span<const std::byte> raster, bool is_wide, std::size_t index) {
@@ -245,6 +269,34 @@ TEST(ClipPart, OfAVideoHasTheSamePictures) {
                                                     .to = ClipMoment{static_cast<std::int64_t>(first + 2), true}}));
       ASSERT_EQ(part.size(), std::min<std::size_t>(2, whole.size() - first));
       for (std::size_t k = 0; k < part.size(); ++k) EXPECT_TRUE(part[k] == whole[first + k]) << first + k;
+    }
+  }
+}
+
+// Pages before a part are passed over: in one directory, in one each, among copies that are no moments, and in files.
+TEST(ClipPart, OfAStackHasTheSamePictures) {
+  const auto stills = random_stills({17, 9, 1}, 65'535, 6, 1);
+  const auto half = [&](std::size_t first) {
+    return tiff_file({stills.begin() + static_cast<std::ptrdiff_t>(first), stills.begin() + first + 3}, {});
+  };
+  for (const std::string kind : {"in one", "pages", "copies", "files"}) {
+    SCOPED_TRACE(kind);
+    const Scratch scratch;
+    if (kind == "files") {
+      for (const std::size_t first : {0u, 3u}) scratch.write(first == 0 ? "a.tif" : "b.tif", half(first));
+    } else {
+      scratch.write("a.tif", kind == "pages" ? tiff_file(stills, {})
+                             : kind == "in one"
+                                 ? tiff_file(stills, {.description = "ImageJ=1.53t\nimages=6\n", .in_one = true})
+                                 : with_copies(stills));
+    }
+    for (std::int64_t first = 0; first < 6; ++first) {
+      for (std::int64_t end = first + 1; end <= 6; ++end) {
+        const auto clip = open_test_clip(scratch.folder(), {.rate = Rational{100, 1},
+                                                            .from = ClipMoment{first, true},
+                                                            .to = ClipMoment{end, true}});
+        expect_codes(*clip, {stills.begin() + first, stills.begin() + end});
+      }
     }
   }
 }

@@ -279,6 +279,28 @@ TEST(StillClip, RefusesAStackThatWasCutOff) {
   }
 }
 
+// Whole pages are taken up to there, also those that one directory stands for, and of the files before.
+TEST(StillClip, OfAStackThatWasCutOffCanBeTakenUpToThere) {
+  const Scratch scratch;
+  const auto stills = random_stills(kGreyShape, 65'535, 4, 1);
+  const std::string in_one = tiff_file(stills, {.description = "ImageJ=1.53t\nimages=9\n", .in_one = true});
+  const std::string pages = tiff_file(stills, {});
+  std::filesystem::create_directory(scratch / "b");
+  scratch.write("b/f0.tif", tiff_file({stills[0], stills[1]}, {}));
+  scratch.write("b/f1.tif", std::string("II*\0damaged", 11));
+  for (const auto& [file, said, whole] :
+       {std::tuple(scratch.write("one.tif", in_one), "says that it holds 9 pictures, and 4 are there", 4),
+        {scratch.write("pages.tif", pages.substr(0, pages.size() - 400)), "breaks at page 4", 3},
+        {scratch / "b", "f1.tif cannot be read: it is damaged", 2}}) {
+    expect_refused(file, {said});
+    const auto clip = open_test_clip(file, {.ends_at_damage = true});
+    const auto rasters = read_all(*clip);
+    ASSERT_EQ(rasters.size(), static_cast<std::size_t>(whole)) << file;
+    for (std::size_t k = 0; k < rasters.size(); ++k) EXPECT_EQ(difference(rasters[k], stills[k]), "");
+    EXPECT_TRUE(clip->ended_early()) << file;
+  }
+}
+
 // The last bytes of a TIFF say that no page follows. Without them the picture may be whole, and the file is not.
 TEST(StillClip, RefusesATiffThatLacksItsLastBytes) {
   const auto stills = random_stills(kGreyShape, 255, 3, 1);

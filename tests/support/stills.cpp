@@ -114,7 +114,7 @@ std::string difference(const std::vector<std::byte>& got, const Picture& want) {
 }
 
 std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& options) {
-  constexpr std::uint32_t kShort = 3, kLong = 4;
+  constexpr std::uint32_t kText = 2, kShort = 3, kLong = 4;
   Bytes file(options.big_endian);
   for (int i = 0; i < 2; ++i) file.add(options.big_endian ? 'M' : 'I', 1);
   file.add(42, 2);
@@ -131,6 +131,8 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
       sizes.push_back(static_cast<std::uint32_t>(values.size()));
       file.text_ += values;
     }
+    for (std::size_t k = 1; options.in_one && k < pages.size(); ++k)
+      file.text_ += tiff_values(pages[k], options, 0, channels);
     const auto list = [&](const std::vector<std::uint32_t>& values, int bytes) {
       if (file.size() % 2 != 0) file.add(0, 1);
       const auto at = static_cast<std::uint32_t>(file.size());
@@ -140,27 +142,25 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     const std::uint32_t offset_list = list(offsets, 4), size_list = list(sizes, 4);
     const std::uint32_t bit_list =
         list(std::vector<std::uint32_t>(channels, static_cast<std::uint32_t>(options.bits)), 2);
+    const auto text = static_cast<std::uint32_t>(file.size());
+    file.text_ += options.description + std::string(options.description.size() % 2 + 2, '\0');
     if (file.size() % 2 != 0) file.add(0, 1);
     file.set(link, static_cast<std::uint32_t>(file.size()));
-    const std::uint32_t entries =
-        11 + (options.max_sample_value != 0) + (options.orientation != 0) + (options.extra >= 0);
-    file.add(entries, 2);
-    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
-      file.add(tag, 2);
-      file.add(type, 2);
-      file.add(count, 4);
-      file.add(value, type == kShort && count == 1 ? 2 : 4);
-      if (type == kShort && count == 1) file.add(0, 2);
-    };
     const auto alone = [&](std::uint32_t count, std::uint32_t value, std::uint32_t where) {
       return count == 1 ? value : where;
     };
+    const auto bits = static_cast<std::uint32_t>(options.bits);
+    std::map<std::uint32_t, std::array<std::uint32_t, 3>> entries = options.tags;  // type, count and value
+    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
+      entries.insert({tag, {type, count, value}});
+    };
     entry(256, kLong, 1, page.shape.width);
     entry(257, kLong, 1, page.shape.height);
-    const auto bits = static_cast<std::uint32_t>(options.bits);
     entry(258, kShort, channels, channels == 2 ? bits * 0x10001 : alone(channels, bits, bit_list));  // two fit in
     entry(259, kShort, 1, 1);  // not compressed
     entry(262, kShort, 1, channels >= 3 ? 2 : options.inverted ? 0 : 1);
+    if (!options.description.empty() && &page == pages.data())
+      entry(270, kText, static_cast<std::uint32_t>(options.description.size() + 1), text);
     entry(273, kLong, planes, alone(planes, offsets[0], offset_list));
     if (options.orientation != 0) entry(274, kShort, 1, static_cast<std::uint32_t>(options.orientation));
     entry(277, kShort, 1, channels);
@@ -172,8 +172,19 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     entry(284, kShort, 1, options.planar ? 2 : 1);
     if (options.extra >= 0) entry(338, kShort, 1, static_cast<std::uint32_t>(options.extra));
     entry(339, kShort, 1, static_cast<std::uint32_t>(options.sample_format));
+    file.add(static_cast<std::uint32_t>(entries.size()), 2);
+    for (const auto& [tag, said] : entries) {
+      const auto [type, count, value] = said;
+      const bool is_short = type == kShort && count == 1;
+      file.add(tag, 2);
+      file.add(type, 2);
+      file.add(count, 4);
+      file.add(value, is_short ? 2 : 4);
+      if (is_short) file.add(0, 2);
+    }
     link = file.size();
     file.add(0, 4);
+    if (options.in_one) break;
   }
   return file.text_;
 }

@@ -1,7 +1,9 @@
 // Random stills with known codes, and the files that hold them.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,10 @@ struct TiffOptions {
   int sample_format = 1;     // 1 without sign, 2 signed, 3 floating point
   int orientation = 0;       // 0: no such tag
   int extra = -1;            // what the last of the channels is, by ExtraSamples; -1: no such tag
+  std::string description = {};
+  bool in_one = false;  // all pages' values lie behind one another, and only the first page has a directory
+  // Further tags of every page, or other values of these: type, count and value by the tag's number.
+  std::map<std::uint32_t, std::array<std::uint32_t, 3>> tags = {};
 };
 [[nodiscard]] std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& options);
 

@@ -28,6 +28,7 @@ struct FilePicture {
   std::vector<std::byte> profile = {};  // ICC; empty where there is none that can be read, or not all of it
   unsigned orientation = 1;             // as it lies, by EXIF's numbers, which are TIFF's
   std::string left_out = {};            // channels beside these (media/clip.hpp)
+  bool has_palette = false;             // of a TIFF: these are its colours
 };
 
 // What a person asked of a file beside its values.

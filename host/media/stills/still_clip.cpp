@@ -48,6 +48,7 @@ struct Still {
   std::string profile = {};                                 // whose colours these are; empty: the file's own
   std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
   bool holds_light = false;
+  bool has_palette = false;
   std::string left_out = {};
 };
 
@@ -116,6 +117,8 @@ struct Reading {
   std::optional<LightCodes> curve;  // likewise
   RawDeveloper raws = {};
   std::optional<TiffReader> tiff = std::nullopt;  // of the page read last
+  std::filesystem::path tiff_file = {};           // likewise
+  bool ends_at_damage = false;
   TiffStory story = {};                           // of the first file
 };
 
@@ -133,11 +136,14 @@ void add_pages(std::vector<Page>& pages, const std::filesystem::path& file, cons
   for (std::uint64_t number = 1; number <= count; ++number) pages.push_back({file, &kind, number, count});
 }
 
-void add_tiff(std::vector<Page>& pages, const std::filesystem::path& file, Reading& reading) {
-  const TiffReader tiff(file);
+void add_tiff(std::vector<Page>& pages, const std::filesystem::path& file, Reading& reading) try {
+  const TiffReader tiff(file, reading.ends_at_damage);
   if (tiff.is_dng()) return add_pages(pages, file, inputs::kDng, 1);  // whose pages show one picture
   if (pages.empty()) reading.story = tiff.story();
   add_pages(pages, file, inputs::kTiff, tiff.page_count());
+} catch (const InputError& error) {
+  if (!reading.ends_at_damage || pages.empty() || !error.settings().empty()) throw;
+  add_pages(pages, file, inputs::kTiff, 1);  // which ends the clip
 }
 
 void follow_profile(Still& still, std::span<const std::byte> profile) {
@@ -162,6 +168,7 @@ Still still_of(FilePicture&& read, const Reading& reading, const Page& page) {
                                                : still_of_light(read.picture, reading, page);
   if (!read.profile.empty()) follow_profile(still, read.profile);
   still.left_out = std::move(read.left_out);
+  still.has_palette = read.has_palette;
   if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
   turn_upright(still, read.orientation);
   return still;
@@ -223,7 +230,11 @@ Still read_exr_still(const Page& page, Reading& reading) {
 }
 
 Still read_tiff_still(const Page& page, Reading& reading) {
-  if (page.number == 1) reading.tiff.emplace(page.file);
+  if (page.number == 1 || reading.tiff_file != page.file) {
+    reading.tiff.emplace(page.file, reading.ends_at_damage);
+    reading.tiff_file = page.file;
+  }
+  reading.tiff->pass_to(page.number);
   std::optional<FilePicture> read = reading.tiff->next();
   if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
   return still_of(std::move(*read), reading, page);
@@ -270,6 +281,7 @@ class StillClip final : public Clip {
   StillClip(std::span<const std::filesystem::path> files, const ClipTiming& timing,
             const ClipOptions& options)
       : stated_(options) {
+    reading_.ends_at_damage = options.ends_at_damage && !timing.is_known();
     for (const std::filesystem::path& file : files) {
       refuse_unsupported_kind(file);
       const inputs::InputKind* kind = still_kind(file);
@@ -304,6 +316,11 @@ class StillClip final : public Clip {
     add_unread_colours(options);
     info_.left_out = first_.left_out;
     if (!info_.left_out.empty()) info_.notes.emplace_back(left_out_note(info_.left_out));
+    if (first_.has_palette) {
+      info_.notes.emplace_back(
+          "the pictures have a palette: its colours are read, not the values that are stored. Without it these are (in "
+          "Fiji: Image, Lookup Tables, Grays)");
+    }
     if (is_developed && pages_.size() > 1) {
       info_.notes.emplace_back(
           format("black level, white balance and colours of all pictures are those that {} states",
@@ -370,13 +387,24 @@ class StillClip final : public Clip {
   // What the description of the first TIFF says of times, and of pictures that are not there.
   void add_story(std::size_t files) {
     const TiffStory& story = reading_.story;
-    if (story.rate) {
-      info_.timing.rate = story.rate;
-      info_.timing.rate_from = format("{}'s description in the file", story.who);
+    if (!story.who.empty()) info_.timing.rate_from = format("{}'s description in the file", story.who);
+    info_.timing.rate_doubt = story.rate_doubt;
+    info_.timing.rate = story.rate;
+    info_.notes.insert(info_.notes.end(), story.notes.begin(), story.notes.end());
+    if (!story.starts_ns.empty() && story.starts_ns.size() >= pages_.size()) {
+      info_.timing.rate.reset();
+      info_.timing.starts_ns = story.starts_ns;
+      if (story.rate) {
+        info_.notes.emplace_back(
+            format("{}'s description states {} pictures a second, and times of its pictures that differ from these by "
+                   "half a period or more. These times are taken; state a rate if they are wrong",
+                   story.who, story.rate->text()),
+            std::vector{Setting::frame_rate});
+      }
     }
-    if (files > 1 || story.pictures <= pages_.size()) return;
-    info_.notes.emplace_back(format("{}'s description says that there are {} pictures, and the file holds {}",
-                                    story.who, story.pictures, pages_.size()));
+    if (files > 1 || story.pictures == 0 || story.pictures == pages_.size()) return;
+    info_.notes.emplace_back(format("{}'s description counts its pictures as {}, and the file holds {}", story.who,
+                                    story.pictures, pages_.size()));
   }
 
   // The rate that the first picture states, and the exposure, where it was the same for all.

@@ -108,8 +108,8 @@ void write_tiff_layers(OutputFile& file, std::span<const PictureLayer> layers) {
 constinit const inputs::InputKind inputs::kTiff{
     .name = "TIFF", .starts = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, .extensions = " .tif .tiff ",
     .said = {"ImageJ's or OME's description", "none",
-             "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of "
-             "OpenEXR",
+             "as stored, or a palette's colours; white by its bits; of 16 `MaxSampleValue` if all ones, OME's or "
+             "Micro-Manager's bits, else 65535 with a note; floats as of OpenEXR",
              "`Orientation`", "left out", "its pages"},
     .has_tags = true, .text = read_description,
     .written = {{.extension = ".tif", .also = ".tiff", .code_bits = 16, .holds_light = true, .holds_double = true,

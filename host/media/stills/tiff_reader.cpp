@@ -53,6 +53,7 @@ class PageReader {
       }
     } else {
       page.picture = read_shown();
+      page.has_palette = photometric_ == PHOTOMETRIC_PALETTE;
     }
     page.density = resolution();
     page.profile = profile();
@@ -62,8 +63,8 @@ class PageReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(format("{} cannot be read: {}", name_, why));
+  [[noreturn]] void fail(const std::string& why, std::vector<Setting> settings = {}) const {
+    throw InputError(format("{} cannot be read: {}", name_, why), std::move(settings));
   }
 
   template <typename T>
@@ -85,15 +86,26 @@ class PageReader {
     }
     // Before anything is allocated.
     const std::uint64_t stored_bytes = (shape_.value_count() * bits_ + 7) / 8;
-    const bool is_packed = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
+    const auto packing = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    const bool is_packed = packing != COMPRESSION_NONE;
     if (stored_bytes > (is_packed ? max_page_bytes(file_bytes_) : file_bytes_)) {
       fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
                   shape_.width, shape_.height, file_bytes_));
     }
-    constexpr const char* kToRgb = "grey and RGB are read: magick IN.tif -colorspace sRGB OUT.tif makes these";
-    if (photometric_ == PHOTOMETRIC_SEPARATED) fail(format("its colours are CMYK; {}", kToRgb));
-    if (photometric_ == PHOTOMETRIC_CIELAB || photometric_ == PHOTOMETRIC_ICCLAB || photometric_ == PHOTOMETRIC_ITULAB)
-      fail(format("its colours are L*a*b*; {}", kToRgb));
+    if (TIFFIsCODECConfigured(packing) == 0) {
+      const TIFFCodec* const named = TIFFFindCODEC(packing);
+      fail(format("its compression, {}, is none that is read here; save it without one, or with LZW (in Fiji: File, "
+                  "Save As, Tiff)",
+                  named != nullptr ? named->name : format("number {}", packing)));
+    }
+    const bool is_lab = photometric_ == PHOTOMETRIC_CIELAB || photometric_ == PHOTOMETRIC_ICCLAB ||
+                        photometric_ == PHOTOMETRIC_ITULAB;
+    if (is_lab || photometric_ == PHOTOMETRIC_SEPARATED) {
+      fail(format("its colours are {}; grey and RGB are read: magick IN.tif -colorspace sRGB OUT.tif makes these, and "
+                  "then state that their transfer function is srgb",
+                  is_lab ? "L*a*b*" : "CMYK"),
+           {Setting::transfer});
+    }
     leave_channels_out();
     if (is_grey() && shape_.channels > 1) {
       fail(format("its {} samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); "
@@ -107,7 +119,7 @@ class PageReader {
     is_light_ = sample_format == SAMPLEFORMAT_IEEEFP && (bits_ == 32 || bits_ == 64);
     if (!is_light_ && (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT)) {
       fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read, and floating point "
-                  "of 32 and 64",
+                  "of 32 and 64: save it as that of 32 (in Fiji: Image, Type, 32-bit)",
                   bits_,
                   sample_format == SAMPLEFORMAT_INT          ? "signed"
                   : sample_format == SAMPLEFORMAT_IEEEFP     ? "floating-point"
@@ -344,6 +356,14 @@ std::uint64_t bytes_in_one_piece(TIFF* file) {
   return row_bytes * height;
 }
 
+// How many pages like its only one lie in a file, of which only that has a directory; 0 where that is not sure.
+std::uint64_t pages_in_one(TIFF* file) {
+  const std::uint64_t page_bytes = bytes_in_one_piece(file), file_bytes = TIFFGetSizeProc(file)(TIFFClientdata(file));
+  const std::uint64_t* offsets = nullptr;
+  const bool has_offsets = TIFFGetField(file, TIFFTAG_STRIPOFFSETS, &offsets) == 1 && offsets != nullptr;
+  return has_offsets && page_bytes > 0 && offsets[0] < file_bytes ? (file_bytes - offsets[0]) / page_bytes : 0;
+}
+
 }  // namespace
 
 struct TiffReader::File {
@@ -380,17 +400,21 @@ struct TiffReader::File {
   std::unique_ptr<TIFF, Close> handle;
 };
 
-TiffReader::TiffReader(const std::filesystem::path& path)
+TiffReader::TiffReader(const std::filesystem::path& path, bool ends_at_damage)
     : name_(input_title(path.string())), file_(std::make_unique<File>(path)) {
   if (!file_->handle) throw InputError(format("{} cannot be read: it is damaged or no TIFF", name_));
   page_count_ = TIFFNumberOfDirectories(file_->handle.get());
-  if (page_count_ == 0 || !file_->trouble.empty()) {
+  const bool is_broken = !file_->trouble.empty();
+  if (page_count_ == 0 || (is_broken && !ends_at_damage)) {
+    const bool is_stack = page_count_ > 1;
     throw InputError(
-        format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({})",
-               name_, page_count_ + 1, file_->trouble));
+        format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({}){}", name_,
+               page_count_ + 1, file_->trouble, is_stack ? "; the pages before it can be taken" : ""),
+        is_stack ? std::vector{Setting::end_at_damage} : std::vector<Setting>{});
   }
   leave_copies_out();
-  follow_story();
+  follow_story(path, ends_at_damage);
+  if (is_broken && !is_in_one_) story_.pictures = ++page_count_;
 }
 TiffReader::~TiffReader() = default;
 
@@ -413,54 +437,76 @@ bool TiffReader::is_dng() const {
   return TIFFGetField(file_->handle.get(), TIFFTAG_DNGVERSION, &version) == 1;
 }
 
-void TiffReader::follow_story() {
+void TiffReader::follow_story(const std::filesystem::path& path, bool ends_at_damage) {
   TIFF* const handle = file_->handle.get();
   const char* description = nullptr;
-  if (TIFFGetField(handle, TIFFTAG_IMAGEDESCRIPTION, &description) != 1 || description == nullptr) return;
-  Shape shape;
-  std::uint16_t channels = 1;
-  TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLESPERPIXEL, &channels);
-  shape.channels = std::max<std::uint16_t>(channels, 1);
-  story_ = read_tiff_story(description, shape);
-  if (page_count_ > 1 && !story_.mixed.empty()) {
-    throw InputError(
-        format("{} holds {}, as its description by {} says, and its pages are not moments one after another; save one "
-               "channel and slice as a TIFF of its own (in Fiji: Image, Hyperstacks, Make Subset)",
-               name_, story_.mixed, story_.who));
+  if (TIFFGetField(handle, TIFFTAG_IMAGEDESCRIPTION, &description) == 1 && description != nullptr) {
+    Shape shape;
+    std::uint16_t channels = 1;
+    TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLESPERPIXEL, &channels);
+    shape.channels = std::max<std::uint16_t>(channels, 1);
+    story_ = read_tiff_story(description, shape, path.filename().string());
   }
-  if (page_count_ > 1 || story_.pictures <= 1) return;
-  const std::uint64_t page_bytes = bytes_in_one_piece(handle),
-                      file_bytes = TIFFGetSizeProc(handle)(TIFFClientdata(handle));
-  const std::uint64_t* offsets = nullptr;
-  const bool has_offsets = TIFFGetField(handle, TIFFTAG_STRIPOFFSETS, &offsets) == 1 && offsets != nullptr;
-  if (!has_offsets || page_bytes == 0 || offsets[0] >= file_bytes) return;
-  const std::uint64_t held = (file_bytes - offsets[0]) / page_bytes;
+  // Tags of other programs.
+  constexpr std::uint32_t kMetaMorphPlanes = 33629, kMicroManager = 51123;
+  std::uint32_t count = 0;
+  const char* values = nullptr;
+  if (TIFFGetField(handle, kMicroManager, &count, &values) == 1 && values != nullptr && !story_.white)
+    story_.white = white_of_micro_manager(std::string(values, strnlen(values, count)));
+  const bool is_metamorph = page_count_ == 1 && TIFFGetField(handle, kMetaMorphPlanes, &count, &values) == 1;
+  if (is_metamorph && count > 1) {
+    story_ = {};
+    story_.who = "MetaMorph";
+    story_.pictures = count;
+    story_.notes.emplace_back("MetaMorph's planes are taken for moments, whose times are not read");
+  }
+  if (!story_.unread.empty()) throw InputError(format("{} {}", name_, story_.unread));
+  const std::uint64_t held = page_count_ == 1 && story_.pictures > 1 ? pages_in_one(handle) : 0;
   is_in_one_ = held > 1;  // else it is one page that kept the description of a stack
-  if (!is_in_one_) return;
-  if (!PageReader(handle, format("page 1 of {}", name_)).holds_codes_as_they_stand()) {
+  if ((page_count_ > 1 || is_in_one_) && !story_.refused.empty())
+    throw InputError(format("{} {}", name_, story_.refused));
+  if (!is_in_one_ && !(is_metamorph && count > 1)) return;
+  if (!is_in_one_ || !PageReader(handle, format("page 1 of {}", name_)).holds_codes_as_they_stand()) {
     throw InputError(
         format("{} holds {} pictures behind one another, as its description by {} says, whose values are no codes as "
-               "they stand, but a palette's for one; save it as grey or RGB (in Fiji: Image, Type, RGB Color)",
-               name_, story_.pictures, story_.who));
-  }
-  if (held < story_.pictures) {
-    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there",
-                            name_, story_.who, story_.pictures, held));
+               "they stand, but {}; save it as grey or RGB (in Fiji: Image, Type, RGB Color)",
+               name_, story_.pictures, story_.who, is_in_one_ ? "a palette's for one" : "compressed or scattered"));
   }
   page_count_ = story_.pictures;
+  if (held >= story_.pictures) return;
+  if (!ends_at_damage) {
+    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there, "
+                            "which can be taken",
+                            name_, story_.who, story_.pictures, held),
+                     {Setting::end_at_damage});
+  }
+  story_.pictures = page_count_ = held + 1;
+}
+
+bool TiffReader::find_next() {
+  if (pages_read_ == 0 || is_in_one_) return true;
+  TIFF* const handle = file_->handle.get();
+  do {
+    if (TIFFReadDirectory(handle) == 0) return false;
+  } while (!is_moment_[TIFFCurrentDirectory(handle)]);
+  return true;
+}
+
+void TiffReader::pass_to(std::uint64_t page) {
+  for (; pages_read_ + 1 < page; ++pages_read_) find_next();
 }
 
 std::optional<FilePicture> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
   const std::string page_name = format("page {} of {}", pages_read_ + 1, name_);
   TIFF* const handle = file_->handle.get();
-  bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
-  while (found && !is_in_one_ && !is_moment_[TIFFCurrentDirectory(handle)]) found = TIFFReadDirectory(handle) != 0;
+  const bool found = find_next();
   std::optional<FilePicture> page;
   if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
   if (!found || !file_->trouble.empty()) {
     throw InputError(format("{} cannot be read: it is damaged ({})", page_name, file_->trouble));
   }
+  if (page && page->picture.type == ValueType::code16 && !page->maximum) page->maximum = story_.white;
   ++pages_read_;
   return page;
 }
