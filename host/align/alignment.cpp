@@ -44,7 +44,7 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion asked, CameraMotion 
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
              "{} motion, and half must. The camera moved too far or too fast, there is a cut or a dissolve between "
              "them, or what moves by itself fills most of the picture",
-             clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
+             clip.name, picture, clip.reference, std::floor(1000 * found.agreeing) / 10, to_text(motion)),
       asked == CameraMotion::homography || asked == CameraMotion::automatic
           ? kOtherReference
           : Advice{"; try `align auto`, another picture to align to (`align-to`), or a part of the clip "

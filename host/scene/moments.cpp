@@ -102,9 +102,9 @@ bool are_of_one_thing(const std::vector<SubjectPlace>& a, const std::vector<Subj
 
 namespace {
 
-// Whether two places touch or overlap when each is grown by half of so many cells.
-bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
-  for (const std::size_t cell : a.cells) {
+// How many cells of a place another one touches or overlaps with when each is grown by half of so many cells.
+double cells_near(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
+  return static_cast<double>(std::ranges::count_if(a.cells, [&](std::size_t cell) {
     const std::size_t x = cell % columns, y = cell / columns;
     for (std::size_t row = y - std::min(y, gap); row <= y + gap; ++row) {
       const std::size_t first = row * columns + x - std::min(x, gap);
@@ -112,8 +112,8 @@ bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, 
       const auto found = std::ranges::lower_bound(b.cells, first);
       if (found != b.cells.end() && *found <= last) return true;
     }
-  }
-  return false;
+    return false;
+  }));
 }
 
 // Adds those nearest to wishes that are spread evenly over candidates.
@@ -165,22 +165,32 @@ void add_others(const Places& candidates, std::uint32_t count, const auto& is_fr
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                          MomentSpacing spacing, std::uint32_t gap_pixels,
                                          const std::vector<SubjectPlace>& taken) {
+  constexpr double kMostHeld = 0.125;  // of the smaller: where a swing hangs
   const std::size_t gap_cells = gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1;
   Places chosen;
+  double most_near = 0;  // cells, as a share of the smaller place
   const auto is_free = [&](const SubjectPlace& place) {
     const auto is_near = [&](const SubjectPlace& other) {
-      return overlap(place, other, track.cell_columns, gap_cells);
+      const auto smaller = static_cast<double>(std::min(place.cells.size(), other.cells.size()));
+      return cells_near(place, other, track.cell_columns, gap_cells) > most_near * smaller;
     };
     return std::ranges::none_of(chosen, [&](const SubjectPlace* other) { return is_near(*other); }) &&
            std::ranges::none_of(taken, is_near);
   };
   const Places candidates = telling_places(track.places);
   const Places whole = whole_places(candidates);
-  if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
-    add_evenly(most, count, spacing, is_free, chosen);
-  }
-  add_others(whole, count, is_free, chosen);
+  const auto choose = [&](const Places& places) {
+    if (!places.empty()) add_evenly(places, count, spacing, is_free, chosen);
+    add_others(whole, count, is_free, chosen);
+  };
+  choose(whole.size() >= count ? whole : candidates);
   add_others(candidates, count, is_free, chosen);
+  if (chosen.size() == 1 && count > 1 && whole.size() > 1) {
+    const Places alone = std::exchange(chosen, {});
+    most_near = kMostHeld;
+    choose(whole);
+    if (chosen.size() == 1) chosen = alone;
+  }
   std::vector<SubjectPlace> moments;
   for (const SubjectPlace* each : chosen) moments.push_back(*each);
   std::ranges::sort(moments, {}, &SubjectPlace::sample);

@@ -13,7 +13,8 @@ enum class MomentSpacing { time, distance };
 
 // Chooses up to `count` of the track's places, evenly in time or along its way, at least `gap_pixels` apart; if these
 // are fewer, then others, each as far from the chosen ones as possible. Only telling_places(), whole ones if there are
-// any; as far from `taken` places of other subjects. In time order.
+// any; as far from `taken` places of other subjects. Where that leaves one, whole places of which an eighth at most is
+// nearer: what hangs is always near itself there. In time order.
 [[nodiscard]] std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                                        MomentSpacing spacing, std::uint32_t gap_pixels,
                                                        const std::vector<SubjectPlace>& taken = {});

@@ -278,11 +278,23 @@ TEST_F(Study, ShowsOneMomentOfWhatFlickersHereAndThere) {
     clip.add(frame);
   }
   expect_says(make("study -f 100 flickers -o flickers.png").err,
-              {"nothing moves as one whole thing. What differs from the scene at rest is scattered over ",
+              {"nothing seen moves as one whole thing. What differs from the scene at rest is scattered over ",
                "on no way of its own", "So a single moment of it is shown"});
   EXPECT_EQ(answer("study -f 100 flickers -o flickers.png")["moments"].size(), 1u);
   const cv::Mat seen = picture("flickers.png").clone().setTo(0, picture("flickers.pgm") != 1);
   EXPECT_GE(cv::countNonZero(seen > 200), 12 * 12) << "all of one square";
+}
+
+// Three lights in a row, each for an eighth of the time.
+TEST_F(Study, ExposesAllOfTheTimeInWhichLightsComeAndGo) {
+  DrawnClip clip(scratch_ / "lights");
+  for (int k = 0; k < 24; ++k) {
+    cv::Mat frame = ground_of(7);
+    if (k % 8 < 3) frame(cv::Rect(8 + 60 * (k / 8), 40, 10, 10)) = 250;
+    clip.add(frame);
+  }
+  expect_says(make("study -f 100 lights -o lights.png").err,
+              {"nothing seen goes anywhere", "around it all of that time is exposed"});
 }
 
 // A pot plant by a window, filmed by somebody who walks round it.
@@ -316,7 +328,7 @@ TEST_F(Study, ShowsNoThinScrapsOfWhatMoves) {
     }
     const auto result = make("study -f 100 thin --moments 2 -o thin.png");
     const std::regex refusal(
-        "nothing moves as one whole thing. What goes furthest fills [0-9]+ % of its box, and is [0-9]+ % of what "
+        "nothing seen moves as one whole thing. What goes furthest fills [0-9]+ % of its box, and is [0-9]+ % of what "
         "differs"
         ".* A thing that shakes, grows or shines shows its edges only");
     EXPECT_EQ(std::regex_search(result.err, refusal), has_lights) << result.err;

@@ -51,6 +51,20 @@ TEST(Moments, DoNotTouch) {
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, 2 * kGap)), (Samples{0, 30}));
 }
 
+// What hangs is always near itself where it hangs: here one cell of eight.
+TEST(Moments, MayBeNearEachOtherWhereTheSubjectHangs) {
+  SubjectTrack track = track_of({{0, 0}, {10, 240}, {20, 480}});
+  for (SubjectPlace& place : track.places) {
+    const std::size_t first = 100 + place.cells.front();
+    place.cells = {75};
+    while (place.cells.size() < 8) place.cells.push_back(first + place.cells.size());
+    place.solid = 8;
+  }
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{0, 10, 20}));
+  for (SubjectPlace& place : track.places) place.is_cut_off = true;
+  EXPECT_EQ(choose_moments(track, 5, MomentSpacing::time, kGap).size(), 1u);
+}
+
 // The border leaves one, two and three cells of a subject of four.
 TEST(Moments, ShowAtLeastHalfOfTheSubject) {
   SubjectTrack track = track_of({{0, 0}, {10, 80}, {20, 240}, {30, 400}, {40, 640}});

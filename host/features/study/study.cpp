@@ -135,6 +135,7 @@ class StudyPlanner {
     for (FollowedSubject& each : followed_) {
       std::ranges::move(each.refused, std::back_inserter(each.track.places));
       std::ranges::sort(each.track.places, {}, &SubjectPlace::sample);
+      if (each.verdict.stays && followed_.size() == 1 && has_trail(request_)) study.way = way_of_lights(each.track);
       if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
     }
     for (const SubjectTrack& track : tracks) {
@@ -142,6 +143,10 @@ class StudyPlanner {
       if (step <= study.step_share * track.size()) continue;
       study.step_pixels = step;
       study.step_share = step / track.size();
+    }
+    if (!study.way.empty()) {
+      study.notes.emplace_back("most of what differs from the scene at rest is seen before or behind that moment: around "
+                               "it all of that time is exposed");
     }
     add_functions(study, request_, timeline_, tracks);
   }
@@ -173,6 +178,20 @@ class StudyPlanner {
     }
     std::ranges::sort(bare);
     return bare;
+  }
+
+  // From where to where anything differs, if most of that is elsewhere, at other times: lights that come and go.
+  [[nodiscard]] static SampleRange way_of_lights(const SubjectTrack& track) {
+    std::size_t elsewhere = 0, own = 0;
+    SampleRange way;
+    for (std::size_t look = 0; look < track.looked_at.size(); ++look) {
+      const auto cells = static_cast<std::size_t>(std::ranges::count((*track.differing)[look], true));
+      if (cells < kMinCells) continue;
+      way = {way.empty() ? track.looked_at[look] : way.first, track.looked_at[look] + 1};
+      const bool is_then = track.places.front().sample <= way.last - 1 && way.last - 1 <= track.places.back().sample;
+      (is_then ? own : elsewhere) += cells;
+    }
+    return elsewhere > own ? way : SampleRange();
   }
 
   // Subject by subject.

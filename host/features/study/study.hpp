@@ -92,7 +92,7 @@ struct Study {
   FunctionSet functions;      // as a function file has them, to be normalized by their integrals
   // The same where samples are made between the pictures: moments are so short that none of those is part of them.
   FunctionSet functions_between;
-  SampleRange way;  // from where to where its trail goes
+  SampleRange way;  // from where to where its trail goes, or that of lights that come and go
   double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
   SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
   std::vector<std::string> notes;

@@ -22,6 +22,8 @@ namespace {
 constexpr double kMaxCameraPixels = 4;
 // From one picture to the next: less lies within a border that is blended usually.
 constexpr double kGhostPixels = 4;
+// Of a subject's size: where its trail shows a place at more pictures, each of them is hardly told from the others.
+constexpr double kGhostShare = 0.25;
 // Copies lie apart that are a subject's size from each other: worse than what is made between them may be, where ground
 // with texture goes along with what moves over it.
 constexpr double kApart = 1;
@@ -428,7 +430,7 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   const double step = planned.study.step_pixels;
   if (source.between) {
     expose_between(*source.between);
-  } else if (planned.session.is_clip() && step >= kGhostPixels) {
+  } else if (planned.session.is_clip() && step >= kGhostPixels && planned.study.step_share >= kGhostShare) {
     const SampleRange& way = planned.study.way;
     const std::uint64_t last = std::min(way.last, planned.session.timeline().sample_count() - 1);
     std::string text = format("the trail is a row of copies, {:.0f} pixels apart, as far as the subject goes from one "

@@ -68,18 +68,20 @@ SubjectVerdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std
   const double length = track.length();
   if (kMinExtent * side > track.extent && !shows_one(style)) {
     return {kMinExtent * side > length ? Shows::nothing : Shows::one,
-            format("nothing goes anywhere: what moves most is {:.0f} pixels large, and goes {:.0f} pixels of {}{}{}",
+            format("nothing seen goes anywhere: what could be followed best is {:.0f} pixels large, and went "
+                   "{:.0f} pixels of {}{}{}",
                    track.size(), track.extent, side,
                    track.looked_at.size() < kMinLooks ? format(", in {} pictures", track.looked_at.size()) : "",
-                   track.extent < track.cell_side ? ". It comes and goes in its place" : "")};
+                   track.extent < track.cell_side ? ". It comes and goes in its place" : ""),
+            true};
   }
   if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
     return {
         track.share < kMinShareOfOne || track.extent < length ? Shows::nothing : Shows::one,
-        format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
-               "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
-               "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
-               "subject, or the moments to show",
+        format("nothing seen moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is "
+               "{:.0f} % of what differs from the scene at rest; one of the two must be half or more. {} shows its "
+               "edges only, and cannot be shown twice. Take a clip in which it goes further, name a region with a "
+               "single subject, or the moments to show",
                100 * track.fill, 100 * track.share,
                track.extent < length
                    ? format("Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
@@ -88,8 +90,8 @@ SubjectVerdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std
   }
   if (track.flickers) {
     return {Shows::one,
-            format("nothing moves as one whole thing. What differs from the scene at rest is scattered over {:.0f} "
-                   "pixels: from picture to picture it lies here and there, on no way of its own",
+            format("nothing seen moves as one whole thing. What differs from the scene at rest is scattered "
+                   "over {:.0f} pixels: from picture to picture it lies here and there, on no way of its own",
                    track.extent)};
   }
   return {};

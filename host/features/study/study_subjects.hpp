@@ -20,6 +20,7 @@ namespace nutik {
 struct SubjectVerdict {
   enum class Shows { all, one, nothing } shows = Shows::all;
   std::string why = {};
+  bool stays = false;  // it goes nowhere
 };
 
 // A track, and in what it was looked for.

@@ -166,7 +166,9 @@ class StudyFunctions {
       covered = std::max(covered, track.covered_share());
     }
     if (request_.style == StudyStyle::rear_curtain) last = std::ranges::max(study.moments);
-    study.way = {std::min(first, last), last + 1};
+    const SampleRange seen{std::min(first, last), last + 1};
+    if (study.way.empty()) study.way = seen;
+    covered *= static_cast<double>(seen.size()) / static_cast<double>(study.way.size());
     const Interval way = interval_of(study.way);
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
     const Interval without = study.empty.empty() ? way : interval_of(study.empty);
