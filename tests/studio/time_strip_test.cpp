@@ -226,7 +226,8 @@ TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {
     EXPECT_EQ(document_.state(), before) << text;
     EXPECT_EQ(shown("width"), text);
     const auto labels = fields_.findChildren<QLabel*>();
-    EXPECT_TRUE(std::ranges::any_of(labels, [&](const QLabel* label) { return label->toolTip().contains(said); })) << text;
+    const auto tells = [&](const QLabel* label) { return label->toolTip().contains(said); };
+    EXPECT_TRUE(std::ranges::any_of(labels, tells)) << text;
   }
   type("width", "10 ms");
   EXPECT_EQ(document_.boxcar().length_ns, 10 * kStripMs);

@@ -145,8 +145,9 @@ class StudyPlanner {
       study.step_share = step / track.size();
     }
     if (!study.way.empty()) {
-      study.notes.emplace_back("most of what differs from the scene at rest is seen before or behind that moment: around "
-                               "it all of that time is exposed");
+      study.notes.emplace_back(
+          "most of what differs from the scene at rest is seen before or behind that moment: around it all of that "
+          "time is exposed");
     }
     add_functions(study, request_, timeline_, tracks);
   }
