@@ -462,19 +462,10 @@ TEST_F(PanelsTest, NothingOfTheToolBarIsHidden) {
   QTest::keyClicks(&start, "early\r");
   EXPECT_TRUE(window_.notice().isVisible());
   auto* heard = QAccessible::queryAccessibleInterface(window_.notice().findChild<QLabel*>());
-  EXPECT_EQ(heard->text(QAccessible::Name), window_.notice().text());
-  EXPECT_TRUE(window_.notice().text().startsWith("Start: 'early' is no time")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(heard->text(QAccessible::Name).startsWith("Start: 'early' is no time"));
   start.selectAll();
   QTest::keyClicks(&start, "0s\r");
   EXPECT_FALSE(window_.notice().isVisible());
-}
-
-TEST_F(PanelsTest, ARegionIsAloneByAKey) {
-  open_clip();
-  for (const bool is_alone : {true, false}) {
-    QTest::keyClick(&window_, Qt::Key_O, Qt::ControlModifier | Qt::ShiftModifier);
-    EXPECT_EQ(document().solo() == document().selected_tag(), is_alone);
-  }
 }
 
 // The picture is the largest thing, and panels that are folded stay so.

@@ -108,6 +108,14 @@ TEST_F(SelectionsTest, SelectWhatMoves) {
             by_command("--moving --smooth 1").inside);
 }
 
+TEST_F(SelectionsTest, AreAloneByAKey) {
+  open_clip();
+  QTest::keyClick(&window_, Qt::Key_O, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(document().solo(), document().selected_tag());
+  QTest::keyClick(&window_, Qt::Key_O, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(document().solo());
+}
+
 TEST_F(SelectionsTest, AreWrittenAsMasksAndFunctionsOfTheirOwn) {
   open_clip();
   window_.write_mask(path("none.pgm"));

@@ -22,7 +22,7 @@ namespace {
 constexpr double kMaxCameraPixels = 4;
 // From one picture to the next: less lies within a border that is blended usually.
 constexpr double kGhostPixels = 4;
-// Of a subject's size: where its trail shows a place at more pictures, each of them is hardly told from the others.
+// As a share of a subject's size: nearer copies of it are hardly told from each other.
 constexpr double kGhostShare = 0.25;
 // Copies lie apart that are a subject's size from each other: worse than what is made between them may be, where ground
 // with texture goes along with what moves over it.

@@ -11,8 +11,8 @@
 namespace nutik::videos {
 namespace {
 
-// Of parts of a picture that a decoder fills, it tells by the picture's flags, too, but sets them too late for pictures
-// that another thread hands out.
+// A decoder that fills parts of a picture says so by the picture's flags, too, but sets them too late for pictures that
+// another thread hands out.
 constexpr const char* kConcealing = "concealing ";
 // What leading pictures give rise to.
 constexpr const char* kMissingReferences[] = {"Missing reference picture", "reference picture missing during reorder",
