@@ -13,7 +13,9 @@ namespace {
 std::string amount(std::uint64_t bytes, int digits = 4) {
   if (bytes < 100'000) return format("{} bytes", bytes);
   const bool is_large = bytes >= 999'500'000;  // else 1000 of the smaller unit
-  return format("{:.{}g} {}", static_cast<double>(bytes) * (is_large ? 1e-9 : 1e-6), digits, is_large ? "GB" : "MB");
+  const double amount = static_cast<double>(bytes) * (is_large ? 1e-9 : 1e-6);
+  const std::string number = amount < 1000 ? format("{:.{}g}", amount, digits) : format("{:.0f}", amount);
+  return number + (is_large ? " GB" : " MB");
 }
 
 Advice way_out(std::uint64_t least) {

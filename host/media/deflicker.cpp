@@ -165,8 +165,8 @@ class DeflickeredClip final : public Clip {
     std::vector<Note> remarks = clip_->remarks();
     if (corrected_ > 0) {
       remarks.emplace_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
-                               corrected_.load(), pictures_.load(), max_ * info_.format.white_code,
-                               info_.format.white_code));
+                                  corrected_.load(), pictures_.load(), max_ * info_.format.white_code,
+                                  info_.format.white_code));
     }
     if (untold_ > 0) {
       remarks.emplace_back(

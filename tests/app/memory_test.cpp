@@ -247,8 +247,8 @@ TEST(Memory, SaysWhatIsTooLittle) {
   expect_says(small.err, "1 MB of memory is too little; at least 10.23 MB is needed: packing them 8.39 MB, ");
   expect_says(small.err, "; allow more: --memory 11MB");
   EXPECT_EQ(run({"--memory", "11MB"}).status, 0);
-  const MemoryTooLittle huge(12'640'000'000, {{"codes", 4'993'000'000'000}});
-  EXPECT_STREQ(huge.what(), "12.64 GB of memory is too little; at least 4993 GB is needed: codes 4.99e+03 GB");
+  const MemoryTooLittle huge(12'640'000'000, {{"codes", 49'930'000'000'000}});
+  EXPECT_STREQ(huge.what(), "12.64 GB of memory is too little; at least 49930 GB is needed: codes 49930 GB");
   expect_says(huge.advice(), "encode a clip before it is exposed");
   EXPECT_EQ(huge.advice().find("`memory"), std::string::npos);
   const auto blocks = run({"--memory", "20MB", "--block-samples", "30"});

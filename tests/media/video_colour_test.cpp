@@ -321,6 +321,7 @@ TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
         {"color=red@0:s=32x32:r=25:d=0.2,format=rgba,split[a][b];[a]palettegen[p];[b][p]paletteuse' clear.gif", true},
         {"testsrc2=s=32x32:r=25:d=0.2,split[a][b];[a]palettegen=reserve_transparent=0[p];[b][p]paletteuse' "
          "-c:v rawvideo opaque.avi", false},
+        {"color=black:s=32x32:r=25:d=0.2' -pix_fmt pal8 -c:v rawvideo black.nut", false},
         {"testsrc2=s=32x32:r=25:d=0.2' -c:v libvpx-vp9 -pix_fmt yuva420p clear.webm", true}}) {
     test::make(scratch, "-f lavfi -i '" + std::string(words));
     const auto clip = open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));

@@ -81,7 +81,8 @@ class Arrays(support.TestCase):
         self.assertNotIn("rounded_codes", [each["term"] for each in codes.uncertainty["terms"]])
 
     def test_integers_in_files_are_to_be_codes(self):
-        for dtype, advice in ((">u2", "astype('uint16')"), ("<i8", ".clip(0, 65535).astype('uint16')"), (">f4", "astype('float32')")):
+        for dtype, advice in ((">u2", "astype('uint16')"), ("<i8", ".clip(0, 65535).astype('uint16')"),
+                              (">f4", "astype('float32')")):
             np.save(self.path("wrong.npy"), np.zeros((2, 8, 8), dtype))
             self.assert_raises(nutik.InputError, advice, nutik.open, self.path("wrong.npy"), rate=1, white=1.0)
 

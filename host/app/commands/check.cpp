@@ -254,21 +254,22 @@ void read_clip(InputCheck& check, const std::string& name, const SourceRequest& 
     if (!reason) reason = lost_pictures_text(source.name(), announced, read);
     if (reason) check.findings.push_back({Finding::Severity::warning, "clip_end", name, *reason});
   });
-  for (const Note& remark : source.clip->remarks()) {
-    if (remark.is_warning) {
-      check.findings.push_back({.severity = Finding::Severity::warning,
-                                .kind = "clip_picture",
-                                .file = name,
-                                .message = remark.text,
-                                .settings = remark.settings});
-    } else {
-      source.notes.push_back(remark);
-    }
+  std::ranges::move(source.clip->remarks(), std::back_inserter(source.notes));
+  check.capture->notes = source.notes;
+  if (count > 0) {
+    check.capture->timeline = source.timeline(count);
+    check.capture->facts = source.facts(count);
+    check.capture->notes = source.all_notes(count);
   }
-  if (count == 0) return;
-  check.capture->timeline = source.timeline(count);
-  check.capture->facts = source.facts(count);
-  check.capture->notes = source.all_notes(count);
+  for (const Note& note : check.capture->notes) {
+    if (!note.is_warning) continue;
+    check.findings.push_back({.severity = Finding::Severity::warning,
+                              .kind = "clip_picture",
+                              .file = name,
+                              .message = note.text,
+                              .settings = note.settings});
+  }
+  std::erase_if(check.capture->notes, [](const Note& note) { return note.is_warning; });
 }
 
 void read_capture(InputCheck& check, const std::string& name, const Options& options) {

@@ -453,8 +453,9 @@ void TiffReader::follow_story(const std::filesystem::path& path, bool ends_at_da
   const char* values = nullptr;
   if (TIFFGetField(handle, kMicroManager, &count, &values) == 1 && values != nullptr && !story_.white)
     story_.white = white_of_micro_manager(std::string(values, strnlen(values, count)));
-  const bool is_metamorph = page_count_ == 1 && TIFFGetField(handle, kMetaMorphPlanes, &count, &values) == 1;
-  if (is_metamorph && count > 1) {
+  const bool is_metamorph =
+      page_count_ == 1 && TIFFGetField(handle, kMetaMorphPlanes, &count, &values) == 1 && count > 1;
+  if (is_metamorph) {
     story_ = {};
     story_.who = "MetaMorph";
     story_.pictures = count;
@@ -465,7 +466,7 @@ void TiffReader::follow_story(const std::filesystem::path& path, bool ends_at_da
   is_in_one_ = held > 1;  // else it is one page that kept the description of a stack
   if ((page_count_ > 1 || is_in_one_) && !story_.refused.empty())
     throw InputError(format("{} {}", name_, story_.refused));
-  if (!is_in_one_ && !(is_metamorph && count > 1)) return;
+  if (!is_in_one_ && !is_metamorph) return;
   if (!is_in_one_ || !PageReader(handle, format("page 1 of {}", name_)).holds_codes_as_they_stand()) {
     throw InputError(
         format("{} holds {} pictures behind one another, as its description by {} says, whose values are no codes as "

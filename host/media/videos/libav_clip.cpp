@@ -148,16 +148,18 @@ int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
 }
 
 // Whether a picture of a GIF, or with a palette, has a pixel that is transparent. Throws InputError naming `name` where
-// the palette has no colour.
+// the palette is none: even black is opaque.
 bool is_transparent(const AVFrame& frame, const std::string& name) {
   const bool has_palette = frame.format == AV_PIX_FMT_PAL8;
   if (!has_palette && frame.format != AV_PIX_FMT_RGB32) return false;
   std::array<std::uint32_t, 256> palette{};
   if (has_palette) {
     std::memcpy(palette.data(), frame.data[1], sizeof palette);
-    if (std::ranges::none_of(palette, [](std::uint32_t colour) { return (colour & 0xFFFFFF) != 0; }))
+    if (std::ranges::count(palette, 0u) == std::ssize(palette)) {
       throw InputError(format("{}: its pictures are numbers of colours, and the file has no palette that tells these: "
-                              "save it with one of greys, as grey (Y800) or as TIFF", name));
+                              "save it with one of greys, as grey (Y800) or as TIFF",
+                              name));
+    }
   }
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* const row = frame.data[0] + std::ptrdiff_t{y} * frame.linesize[0];
